@@ -1,7 +1,7 @@
 // A particle, as passed to a law.
 struct Particle { index: u32, position: vec3f, mass: f32 }
 
-// Lanes behind the last particle repeat it; nothing of theirs is stored.
+// Lanes after the last particle repeat it; their results are not stored.
 fn particle(i: u32) -> Particle {
     let index = min(i, world.count - 1u);
     let p = position[index];

@@ -9,5 +9,5 @@ struct World {
     period: vec3f, frequency: vec3f,
 }
 
-// A dispatch of more than 65 535 workgroups is folded over two dimensions; this is the workgroup's place in line.
+// A dispatch of more than 65 535 workgroups is folded over two dimensions; this is the linear index of the workgroup.
 fn folded(group: vec3u, groups: vec3u) -> u32 { return group.y * groups.x + group.x; }

@@ -7,10 +7,10 @@ use std::task::Waker;
 use crate::error::Error;
 use crate::kernel::{Access, Array, Arrival, Backend, Host, Machine, Next, POSITION, Plan, VELOCITY, World};
 
-/// How many threads kernels run on. They are started here, once; a program that has made rayon's global pool by itself keeps it.
+/// The number of threads for kernels. They are started here, once; a program that has built rayon's global pool itself keeps it.
 ///
 /// # Errors
-/// [`Error::Threads`] when the system starts none.
+/// [`Error::Threads`] when the system cannot start any.
 pub fn threads() -> Result<usize, Error> {
     static POOL: OnceLock<Result<(), String>> = OnceLock::new();
     // There rayon makes do with the thread that there is, unless it is asked.
@@ -50,7 +50,7 @@ impl Cpu {
             return Err(Error::Scene("there are no particles: a simulation needs one or more".to_owned()));
         }
         let mut host = Host::default();
-        // A reference may look at more of a particle than its shader does.
+        // A reference may read more of a particle than its shader does.
         for always in [POSITION.name, VELOCITY.name] {
             host.insert(always, Array::Vec4(Vec::new()).zeros(count as usize));
         }

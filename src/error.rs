@@ -14,7 +14,7 @@ pub enum Error {
     Setting {
         /// The key.
         key: &'static str,
-        /// What is wrong, with the number and the way out.
+        /// The fault, with the number and the remedy.
         why: String,
     },
     /// A file of particles cannot be read. Remedy: in that file.
@@ -22,7 +22,7 @@ pub enum Error {
     Input {
         /// The file.
         file: PathBuf,
-        /// What is wrong, with line or byte offset.
+        /// The fault, with line or byte offset.
         message: String,
     },
     /// A WGSL file does not compile, or does not have the functions that its visit calls. Remedy: in that file.
@@ -56,7 +56,7 @@ pub enum Error {
     Runaway {
         /// The lowest id among these particles.
         particle: u32,
-        /// The step, counted from 0, in which that was seen.
+        /// The step, counted from 0, in which that was detected.
         step: u64,
     },
     /// Forces require a step that is shorter than the minimum. Remedy: a start with weaker forces, or a smaller minimum.
@@ -67,13 +67,13 @@ pub enum Error {
     TooShort {
         /// The step, counted from 0.
         step: u64,
-        /// How long it would have to be \[time\].
+        /// The required length \[time\].
         wanted: f64,
-        /// The shortest that was allowed \[time\].
+        /// The minimum \[time\].
         least: f64,
-        /// What limits it.
+        /// The limiting criterion.
         reason: &'static str,
-        /// The particle that it belongs to.
+        /// The limiting particle.
         particle: String,
     },
     /// A particle has more neighbours than a neighbour search or a tree walk can visit. Remedy: a shorter range, or a larger
@@ -118,7 +118,7 @@ pub enum Error {
     ListFull {
         /// The lowest id of such a particle.
         particle: u32,
-        /// The most neighbours that any particle had.
+        /// The largest number of neighbours of any particle.
         longest: u32,
         /// The capacity of the list.
         capacity: u32,
@@ -134,9 +134,9 @@ pub enum Error {
     /// The device did not answer in time.
     #[error("the device did not finish within {seconds} s: {what}")]
     Timeout {
-        /// What was waited for.
+        /// The operation that timed out.
         what: String,
-        /// How long.
+        /// The time waited.
         seconds: u64,
     },
     /// No thread can be started on the host. Remedy: the limits of the system.
@@ -155,7 +155,7 @@ pub enum Error {
     Output {
         /// The file.
         file: PathBuf,
-        /// Why.
+        /// The reason.
         message: String,
     },
 }

@@ -25,13 +25,13 @@
 //! | save, restore, continue bit for bit | [`Simulation::snapshot`], [`Simulation::setup`], [`State`] |
 //! | give settings as fields | [`typed`] |
 //! | write a law of your own | [`Custom`] |
-//! | know before a run what is wrong with it | [`diagnose`](diagnose::diagnose) |
+//! | find faults of a setup before a run | [`diagnose`](diagnose::diagnose) |
 //! | open a device yourself | [`gpu::wanted_features`], [`gpu::wanted_limits`] |
 //!
 //! Each of these is a program of some forty lines under `examples/`, which a test runs; [`examples`] shows them.
 //!
 //! [`Simulation`], [`Readback`], [`State`], [`Setup`] and [`Run`](run::Run) are `Send + Sync + 'static` (but in a browser, where devices
-//! stay in their thread): a simulation may be a resource of a game's schedule, and step in whichever thread that runs.
+//! stay in their thread): a simulation may be a resource of a game's schedule, and can be stepped from any thread.
 //!
 //! This page shows the public interface. Other modules are public for the command and for tests; they are not documented here, and
 //! not stable.

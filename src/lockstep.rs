@@ -15,13 +15,13 @@ use crate::kernel::{
     ACCELERATION, Access, Array, Backend, Host, Kernel, LIFE, Name, Next, POSITION, Plan, VELOCITY, World,
 };
 
-/// What a kernel may be wrong by, in parts of what it changed: a sum of n terms of one magnitude rounds by about √n ulp,
-/// and blocks keep √n below 100; with 6e-8 for an ulp that is 6e-6. The worst seen on lavapipe is 2e-6.
+/// The tolerated error of a kernel, relative to the change: a sum of n terms of one magnitude has a rounding error of about √n ulp, and
+/// blocks keep √n below 100; with 6e-8 for an ulp that is 6e-6. The worst seen on lavapipe is 2e-6.
 pub const TOLERANCE: f64 = 1e-5;
-/// And beside that, in units of the last place of the result, for the last addition and for a product before it.
+/// An additional tolerance, in units of the last place of the result, for the last addition and for a product before it.
 const LAST_PLACES: f64 = 2.0;
-/// What stands behind the last element of a field, and in all of a scratch field: a small f32, another one in every
-/// field, so that a kernel which copies from behind one field to behind another is seen.
+/// The contents after the last element of a field, and of all of a scratch field: a small f32, different in every field, so that a kernel
+/// which copies between these regions is detected.
 fn sentinel(place: usize) -> [u8; 4] {
     [0xA5, u8::try_from(place % 251).unwrap_or(0), 0xC3, 0x3C]
 }
@@ -45,7 +45,7 @@ pub struct Verdict {
     pub relative: [f64; 3],
     /// Whether anything changed at all. A kernel that changes nothing proves nothing.
     pub changed: bool,
-    /// Whether something was written behind the last element.
+    /// Whether a kernel has written after the last element.
     pub spilled: bool,
 }
 
@@ -65,7 +65,7 @@ impl Verdict {
 /// Runs a plan once, kernel by kernel, and compares each with its reference. Kernels without a reference run, and are left out.
 ///
 /// # Errors
-/// What the device says.
+/// Errors of the device.
 pub async fn compare(gpu: &mut Gpu, plan: &Plan, count: u32) -> Result<Vec<Verdict>, Error> {
     compare_while(gpu, plan, count, |_| true).await
 }
@@ -100,7 +100,7 @@ pub async fn compare_while(
             continue;
         };
         let mut fields = fields(kernel, count);
-        // A reference may look at more of a particle than its shader does.
+        // A reference may read more of a particle than its shader does.
         for always in [POSITION.name, VELOCITY.name] {
             if fields.iter().all(|(name, ..)| name != always) && gpu.size(always) >= 16 * u64::from(count) {
                 fields.push((always.to_owned(), 16 * u64::from(count), Array::Vec4(Vec::new()), 1));
@@ -112,7 +112,7 @@ pub async fn compare_while(
         for (place, (name, bytes, ..)) in fields.iter().enumerate() {
             behind(gpu, name, *bytes, sentinel(place))?;
         }
-        // What is left of an earlier run must not matter.
+        // Contents left by an earlier run must not matter.
         let scratch = |name: &&Name| gpu.size(name) > 0;
         let scratch: Vec<_> = kernel.scratch.iter().filter(scratch).collect();
         for name in &scratch {
@@ -203,8 +203,8 @@ fn fields(kernel: &Kernel, count: u32) -> Vec<(String, u64, Array, usize)> {
     list
 }
 
-/// Compares what a kernel made: what was there before, what the reference wants, and what came. The members of a struct are different
-/// things, each with a usual change of its own. `aside` is what else the reference may want.
+/// Compares the result of a kernel: the old values, those of the reference, and the new ones. The members of a struct are different
+/// quantities, each with a typical change of its own. `aside` contains further acceptable results of the reference.
 fn judge(
     (before, want, got): (&Array, &Array, &Array),
     members: usize,

@@ -13,7 +13,7 @@ pub use kind::{Kind, LARGEST_WHOLE, Outside, is_lost};
 pub use nearest::{listed, nearest, unknown};
 pub use number::plain;
 
-/// One value out of a scene.
+/// A value of a scene.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Value {
     /// A number.
@@ -29,7 +29,7 @@ pub enum Value {
 }
 
 impl Value {
-    /// What it is, in words.
+    /// Its kind, in words.
     #[must_use]
     pub fn kind(&self) -> &'static str {
         match self {
@@ -40,7 +40,7 @@ impl Value {
             Self::Pairs(_) => "a list of pairs of species",
         }
     }
-    /// Why single precision does not hold it, if it does not.
+    /// The reason why single precision cannot hold it, if it cannot.
     #[must_use]
     pub fn beyond(&self) -> Option<String> {
         let bad = |x: &f64| Kind::Number.outside(*x).is_some();
@@ -97,33 +97,33 @@ impl Pair {
     pub fn number(&self, name: &str) -> f64 {
         self.values.iter().find(|(known, _)| known == name).map_or(0.0, |(_, x)| *x)
     }
-    /// Whether it has a number for every key, and nothing else.
+    /// Whether it has a number for every key, and no others.
     fn fits(&self, keys: &[Key]) -> bool {
         let has = |key: &Key| self.values.iter().any(|(name, _)| name == key.name);
         self.values.len() == keys.len() && keys.iter().all(has)
     }
 }
 
-/// The sides of a box, as scenes call them.
+/// The names of the sides of a box, in scenes.
 pub const SIDES: &[&str] = &["-x", "+x", "-y", "+y", "-z", "+z"];
 
-/// A key: its name in the scene, what it accepts, what it is when left out (`None`: it must be given), and what it means.
+/// A key: its name in the scene, the accepted values, the default (`None`: it must be given), and its meaning.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Key {
     /// The name in the scene; for a force also the member of `Params` in its shader.
     pub name: &'static str,
-    /// What it accepts.
+    /// The accepted values.
     pub kind: Kind,
     /// Its value when the scene leaves it out.
     pub default: Option<Value>,
     /// One line: what it means, and its unit.
     pub about: &'static str,
-    /// Whether it says something of a scene's fluid: the force says it for shapes and emitters that leave it out.
+    /// Whether it is a property of the scene's fluid: shapes and emitters that leave it out use the value of the force.
     pub of_fluid: bool,
 }
 
 impl Key {
-    /// The same, of the scene's fluid.
+    /// The same, as a property of the scene's fluid.
     #[must_use]
     pub const fn of_fluid(mut self) -> Self {
         self.of_fluid = true;
@@ -141,8 +141,8 @@ impl Key {
     }
 }
 
-/// Checked values by name, defaults filled in. Reading a name that was never declared is a bug of the reader and
-/// gives a zero (an empty word, `false`); a test reads every declared key of every entry.
+/// Checked values by name, defaults filled in. Reading an undeclared name is a programming error and returns zero (an empty word, `false`);
+/// a test reads every declared key of every entry.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Settings(pub BTreeMap<&'static str, Value>);
 
@@ -152,14 +152,14 @@ impl Settings {
     pub fn defaults(keys: &[Key]) -> Self {
         Self(keys.iter().filter_map(|k| Some((k.name, k.default.clone()?))).collect())
     }
-    /// The same with one value set. A name that the force, shape or picture does not have is an error where that is built.
+    /// The same with one value set. A name that the force, shape or picture does not have is reported when it is built.
     #[must_use]
     pub fn with(mut self, name: &'static str, value: Value) -> Self {
         self.0.insert(name, value);
         self
     }
-    /// What is wrong with these, for the owner of such keys: a name that is none of them, a value of another kind or out of its range, or
-    /// one that is missing.
+    /// The first fault of these settings, given the keys of their owner: an unknown name, a value of another kind or out of its range, or a
+    /// missing one.
     #[must_use]
     pub fn fault(&self, keys: &[Key]) -> Option<String> {
         let refused = |(name, value): (&&'static str, &Value)| {
@@ -172,7 +172,7 @@ impl Settings {
             Some(format!("requires a value for its key `{}`: {}", missing.name, missing.about))
         })
     }
-    /// The same of names and kinds alone, for an owner that looks at ranges itself.
+    /// The same for names and kinds only, for an owner that checks ranges itself.
     #[must_use]
     pub fn misnamed(&self, keys: &[Key]) -> Option<String> {
         self.0.iter().find_map(|(name, value)| {
@@ -191,7 +191,7 @@ impl Settings {
             _ => 0.0,
         }
     }
-    /// A number that its kind promises to be whole.
+    /// A number of a kind that accepts only integers.
     #[must_use]
     #[expect(
         clippy::cast_possible_truncation,
@@ -201,7 +201,7 @@ impl Settings {
     pub fn whole(&self, name: &str) -> u64 {
         self.number(name) as u64
     }
-    /// A species; `None` stands for all.
+    /// A species; `None`: all.
     #[must_use]
     pub fn species(&self, name: &str) -> Option<u32> {
         match self.0.get(name) {

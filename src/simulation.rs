@@ -45,12 +45,12 @@ use rows::Rows;
 use std::collections::BTreeMap;
 use ties::Ties;
 
-/// What a simulation is made from.
+/// The initial state of a simulation.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Start {
-    /// A state of a caller's.
+    /// A state given by the caller.
     Anew,
-    /// What another simulation has in its rows, all of it.
+    /// All rows of another simulation.
     Grown,
 }
 
@@ -58,48 +58,48 @@ enum Start {
 pub struct Simulation<B: Backend> {
     backend: B,
     start: B::Program,
-    /// Whether the start has run for the state that is there.
+    /// Whether the start plan has run for the current state.
     begun: bool,
     /// Whether forces make something of the state then, such as the masses of walls: what is measured has it.
     begins: bool,
     step: B::Program,
     measure: (B::Program, B::Program),
     plan: String,
-    /// By which an alarm names users' laws.
+    /// The marks by which alarms name users' laws.
     marks: alarm::Marks,
-    /// Whether a step keeps a report of its solves, and one of those for pressure.
+    /// Whether a step keeps a report of its implicit solves, and one of its pressure solves.
     reports: [bool; 2],
-    /// All but the state, with which a plan is written anew for more rows; and how often that was.
+    /// The setup without its state, from which plans are rewritten for more rows; and the number of times this was done.
     setup: Setup,
     generation: u32,
     /// Rows that were in use when a plan was first written for this run.
     first_rows: u32,
     rows: Rows,
     store: Store,
-    /// As the setup gave it, and whether springs may have broken since.
+    /// Links, motions, births and drains as the setup gave them, and whether springs may have broken since.
     ties: Ties,
     breaks: bool,
-    /// How many may be spawned or removed: all, or none.
+    /// The number of rows that may be spawned or removed: all, or none.
     inactive: u32,
     dt: f64,
-    /// How long steps are, where they are not all alike.
+    /// The adaptive time step; `None`: all steps have the same length.
     adaptive_step: Option<AdaptiveStep>,
-    /// The list of neighbours that laws share, if any.
+    /// The neighbour list that laws share, if any.
     list: Option<ListShape>,
     repeat: lists::Repeat,
     steps: u64,
     /// Restart data that a step saves for the next one beside columns, and a hash of this step.
     carried: Vec<Carried>,
     print: u64,
-    /// Whether it continued from a state that had all of it.
+    /// Whether the simulation continued from a state with complete restart data.
     goes_on: bool,
-    /// Where particles were at the start of the run, and how many fixed ones began somewhere.
+    /// The extent of the particles at the start of the run, and the number of fixed ones whose initial positions are stored.
     extent: (DVec3, DVec3),
     anchored: usize,
-    /// For what its plans were written, and these: a setting that changes has them written anew.
+    /// The problem that the plans were written for, and the plans: a change of a setting rewrites them.
     problem: Box<Problem>,
     plans: Box<Plans>,
-    /// The fields that they name.
+    /// The fields that the plans name.
     fields: Fields,
     /// The largest values of columns that forces limit.
     largest: BTreeMap<&'static str, setup::Largest>,
@@ -110,7 +110,7 @@ impl<B: Backend> Simulation<B> {
     /// [`Simulation::snapshot`] and [`State::begin_anew`].
     ///
     /// # Errors
-    /// When the setup makes no sense, a shader does not compile, the fields do not fit the device, or no thread can be started.
+    /// When the setup is invalid, a shader does not compile, the fields do not fit the device, or no thread can be started.
     pub fn on(backend: B, setup: &Setup) -> Result<Self, Error> {
         Self::going(backend, setup, Start::Anew)
     }
@@ -202,7 +202,7 @@ impl<B: Backend> Simulation<B> {
         self.steps += u64::from(steps);
         Ok(())
     }
-    /// Runs what is done once before the first step, where that has not been.
+    /// Runs the start plan before the first step, if it has not run yet.
     fn begin(&mut self) -> Result<(), Error> {
         if !self.begun {
             self.backend.run(&self.start, 1)?;
@@ -219,8 +219,7 @@ impl<B: Backend> Simulation<B> {
         }
         Ok(())
     }
-    /// Reads a field, one element for each row in use. It waits for all steps that were submitted; [`Simulation::request`] waits for
-    /// none.
+    /// Reads a field, one element for each row in use. It waits for all submitted steps; [`Simulation::request`] does not wait.
     ///
     /// # Errors
     /// When there is no such field, the device is lost, or it does not answer in time.
@@ -231,7 +230,7 @@ impl<B: Backend> Simulation<B> {
         let array = self.backend.read(field.name, &like, len).await?;
         Ok(T::view(&array).map_or_else(Vec::new, |values| values.iter().map(|v| T::narrow(*v)).collect()))
     }
-    /// The elements of a field that are read: of rows in use, or all where they are fewer than rows, as those of a user's table.
+    /// The number of elements of a field that are read: those of rows in use, or all where there are fewer than rows, as in a user's table.
     fn len_of<T>(&self, field: Field<T>, like: &Array) -> Result<usize, Error> {
         let (all, rows) = (self.fields.len(field.name, like)?, self.rows.capacity() as usize);
         Ok(if all < rows { all } else { self.rows.used() as usize })
@@ -258,7 +257,7 @@ impl<B: Backend> Simulation<B> {
     pub fn write<T: Element>(&mut self, field: Field<T>, values: &[T]) -> Result<(), Error> {
         self.write_at(field, 0, values)
     }
-    /// The same from one of its elements on.
+    /// Writes a field from the element `first` on.
     ///
     /// # Errors
     /// When there is no such field, it ends before, a number for a column of the state is not finite, it is the clock or the life of
@@ -284,7 +283,7 @@ impl<B: Backend> Simulation<B> {
     pub async fn snapshot(&mut self) -> Result<State, Error> {
         self.snapshot_of(&[]).await
     }
-    /// The same, with the values that these other columns have at the present state.
+    /// Like [`Simulation::snapshot`], with these other columns, which have the values of the present state.
     ///
     /// # Errors
     /// [`Error::Scene`] when there is no such column, or nothing computes it; and those of [`Simulation::snapshot`].
@@ -294,13 +293,13 @@ impl<B: Backend> Simulation<B> {
             let alarm = self.alarm().await?;
             self.sound(&alarm)?;
             self.repeatable(None)?;
-            // What a fluid's walls weigh, and its density at rest, are said there.
+            // The start plan computes the masses of a fluid's walls and its rest density.
             if self.begins {
                 self.begin()?;
             }
             self.backend.run(&self.measure.0, 1)?;
             let state = self.gathered(&[columns, &["potential"]].concat()).await;
-            // Laws were asked once more.
+            // The laws were evaluated once more.
             let alarm = self.alarm().await?;
             self.backend.run(&self.measure.1, 1)?;
             if !self.settle().await? {
@@ -314,7 +313,7 @@ impl<B: Backend> Simulation<B> {
         self.mark(&mut state);
         Ok(state)
     }
-    /// Gives to columns all that a state has beside them.
+    /// Adds to a state of columns everything else that a state holds.
     async fn complete(&mut self, state: &mut State) -> Result<(), Error> {
         self.ties.give(state);
         let all = std::mem::replace(&mut state.links, self.links_now().await?);
@@ -344,7 +343,7 @@ impl<B: Backend> Simulation<B> {
     pub fn count(&self) -> u32 {
         self.rows.used()
     }
-    /// Rows that there are: particles are spawned into free ones without a new plan. See [`State::capacity`].
+    /// The number of rows allocated: particles are spawned into free ones without a new plan. See [`State::capacity`].
     #[must_use]
     pub fn capacity(&self) -> u32 {
         self.rows.capacity()
@@ -360,7 +359,7 @@ impl<B: Backend> Simulation<B> {
     pub fn setup(&self) -> &Setup {
         &self.setup
     }
-    /// The backend. What is run or written there is not repeated where a list of neighbours has to grow.
+    /// The backend. Whatever is run or written through it is not repeated when a neighbour list has to grow.
     pub fn backend(&mut self) -> &mut B {
         self.unrepeatable();
         &mut self.backend
@@ -374,7 +373,7 @@ impl Simulation<Gpu> {
     /// for: speed where there are subgroups, and room for more than 8 million particles.
     ///
     /// # Errors
-    /// When the setup makes no sense, a shader does not compile, or the fields do not fit the device.
+    /// When the setup is invalid, a shader does not compile, or the fields do not fit the device.
     pub fn new(device: &wgpu::Device, queue: &wgpu::Queue, setup: &Setup) -> Result<Self, Error> {
         let gpu = Gpu::new(device, queue, setup.check()?)?;
         Self::on(gpu, setup)

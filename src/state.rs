@@ -41,7 +41,7 @@ pub struct State {
     pub motions: Vec<Motion>,
     /// When and how pending particles are spawned.
     pub births: Vec<Birth>,
-    /// Where particles are removed.
+    /// The drains, which remove particles.
     pub drains: Vec<Drain>,
     /// The time \[time\].
     pub time: f64,
@@ -105,7 +105,7 @@ impl State {
     pub fn columns(&self) -> impl Iterator<Item = (&Column, &Array)> {
         self.columns.iter().filter_map(|filled| Some((&filled.column, filled.values.as_ref()?)))
     }
-    /// All columns that it knows, whether they have values or not.
+    /// All declared columns, with or without values.
     pub fn declared(&self) -> impl Iterator<Item = &Column> {
         self.columns.iter().map(|filled| &filled.column)
     }
@@ -138,7 +138,7 @@ impl State {
     /// Makes a column known. It gets values by [`State::set`]; a simulation starts with its initial value where none is given.
     ///
     /// # Errors
-    /// [`Error::Scene`] when a column of that name is known, of another kind or shape.
+    /// [`Error::Scene`] when a column of that name with another kind or shape is declared.
     pub fn declare(&mut self, column: &Column) -> Result<(), Error> {
         if let Some(known) = self.columns.iter_mut().find(|filled| filled.column.name == column.name) {
             if (known.column.kind, known.column.shape) != (column.kind, column.shape) {
@@ -159,7 +159,7 @@ impl State {
     /// Gives a column its values. A name that is not declared yet becomes a column of that kind, one value for each particle.
     ///
     /// # Errors
-    /// [`Error::Scene`] when the values are of another kind than the column, or not as many.
+    /// [`Error::Scene`] when the values are of another kind than the column, or their number differs.
     pub fn set(&mut self, name: &str, values: Array) -> Result<(), Error> {
         if self.find(name).is_none() {
             let known = Columns::default().get(name).cloned();
@@ -194,7 +194,7 @@ impl State {
         let place = self.columns.iter().position(|filled| filled.column.name == name).filter(|n| *n >= BASIC.len())?;
         self.columns.remove(place).values
     }
-    /// Puts a column in place of what is known of that name; there must be as many values as its shape has.
+    /// Replaces the column of that name; there must be as many values as its shape requires.
     pub(crate) fn put(&mut self, column: &Column, values: Option<Array>) {
         let filled = Filled { column: column.clone(), values };
         if let Some(place) = self.columns.iter().position(|known| known.column.name == column.name) {
@@ -208,7 +208,7 @@ impl State {
     fn find(&self, name: &str) -> Option<&Filled> {
         self.columns.iter().find(|filled| filled.column.name == name)
     }
-    /// Every column with values, one or some for each particle.
+    /// Every column with values, of shape particle or slots.
     fn particle_columns(&mut self) -> impl Iterator<Item = (&Column, &mut Array)> {
         let some = self.columns.iter_mut().filter(|filled| !matches!(filled.column.shape, Shape::System(_)));
         some.filter_map(|filled| Some((&filled.column, filled.values.as_mut()?)))

@@ -9,7 +9,7 @@ fn wrapped(x: f32, low: f32, high: f32, period: f32, frequency: f32) -> f32 {
     if period == 0.0 || (x >= low && x < high) { return x; }
     let inside = x - period * floor((x - low) * frequency);
     if inside >= low && inside < high { return inside; }
-    // What rounds to the far side, or past the near one, is at the near one.
+    // A position that rounds to the far side, or beyond the near one, is at the near one.
     return low;
 }
 
@@ -18,7 +18,7 @@ fn periodic(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups
     let i = folded(group, groups) * WORKGROUP + lane;
     if i < world.count {
         let x = position[i];
-        // What is broken stays so: the watch names the particle.
+        // Positions that are not finite are kept: the watch names the particle.
         if !broken(x) {
             position[i] = vec4f(
                 wrapped(x.x, world.low.x, world.high.x, world.period.x, world.frequency.x),

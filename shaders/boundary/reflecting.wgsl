@@ -6,7 +6,7 @@
 const WORKGROUP: u32 = 64u;
 const REFLECTING: u32 = 2u;
 
-// Where it comes to be along an axis, and what becomes of the sign of its velocity there.
+// The new position along an axis, and the new sign of its velocity there.
 fn thrown_back(x: f32, low: f32, high: f32, side: u32) -> vec2f {
     // A particle inside stays there bit for bit.
     if side != REFLECTING || (x >= low && x <= high) { return vec2f(x, 1.0); }
@@ -25,7 +25,7 @@ fn reflecting(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) grou
     let i = folded(group, groups) * WORKGROUP + lane;
     if i < world.count && !is_held(i) && is_active(i) {
         let x = position[i];
-        // What is broken stays so: the watch names the particle.
+        // Positions that are not finite are kept: the watch names the particle.
         if !broken(x) {
             let v = velocity[i];
             let sides = vec3u(world.sides, world.sides >> 8u, world.sides >> 16u) & vec3u(255u);

@@ -5,7 +5,7 @@
 @group(0) @binding(0) var<uniform> world: World;
 @group(1) @binding(0) var<storage, read_write> position: array<vec4f>; // xyz, mass
 @group(1) @binding(1) var<storage, read_write> velocity: array<vec4f>; // xyz, radius
-@group(3) @binding(0) var<storage, read> chain_start: array<u32>; // the first node of each chain, and one behind the last
+@group(3) @binding(0) var<storage, read> chain_start: array<u32>; // the first node of each chain, and the number of nodes
 @group(3) @binding(1) var<storage, read> chain_node: array<Node>;
 @group(3) @binding(2) var<storage, read_write> chain_sweep: array<vec2f>; // for each rod, at its last node: x and y below
 
@@ -16,7 +16,7 @@ struct Bob { x: vec3f, v: vec3f, w: f32 }
 // The rod between two: its way now, its way before the drift, and by how much it misses what it must be.
 struct Rod { r: vec3f, old: vec3f, miss: f32 }
 
-// The part of the step that was drifted; after a kick none.
+// The part of the step that was drifted; 0 after a kick.
 override FACTOR: f32 = 0.0;
 override CHAINS: u32 = 0u;
 // Whether it was no drift: x − h v is not where it began, and so has not the right lengths.

@@ -21,7 +21,7 @@ const PLANE: u32 = 2u;
 
 struct Touch { n: vec3f, depth: f32, r: vec3f }
 
-// How far a particle is behind the margin, and the way out.
+// The depth of a particle below the margin, and the direction out.
 fn touch(frame: Frame, x: vec3f) -> Touch {
     var r = x - frame.centre;
     // A plane has no images.

@@ -9,7 +9,7 @@
 
 override UNIT: f32 = 1.0;        // the longest step
 override LEAST: u32 = 1u;        // the ticks of the shortest
-override VISCOUS: f32 = 0.0;     // how many steps viscosity wants
+override VISCOUS: f32 = 0.0;     // the number of steps that viscosity requires
 const TICKS: f32 = 16777216.0;
 const DIGITS: u32 = 11u;
 const NONE: u32 = 4294967295u;

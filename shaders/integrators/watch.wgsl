@@ -14,14 +14,14 @@ fn watch(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: v
     let i = folded(group, groups) * WORKGROUP + lane;
     if i < world.count {
         if broken(position[i]) || broken(velocity[i]) || broken(acceleration[i]) {
-            // Later looks find fewer steps already there, and leave the id alone.
+            // Later checks find an earlier step already stored, and do not change the id.
             if atomicMin(&alarm[0], world.step) >= world.step { atomicMin(&alarm[1], i); }
         } else {
             // The largest component stands for the speed: it has no rounding. Bits of floats that are not negative are in
             // the floats' order.
             let v = abs(velocity[i].xyz);
             let speed = max(max(v.x, v.y), v.z);
-            // Few are faster than all before them: most only look.
+            // Few particles are faster than all before them: most only compare.
             if bitcast<u32>(speed) > atomicLoad(&alarm[5]) { atomicMax(&alarm[5], bitcast<u32>(speed)); }
             if atomicLoad(&alarm[7]) >= 7u && speed > 2.0 * bitcast<f32>(atomicLoad(&alarm[6])) {
                 if atomicMin(&alarm[3], world.step) >= world.step { atomicMin(&alarm[4], i); }

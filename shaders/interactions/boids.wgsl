@@ -36,7 +36,7 @@ fn merge(total: ptr<function, Sum>, part: Sum) {
     (*total).displacement += part.displacement;
 }
 
-// Steering to full speed along a direction; none for a zero vector.
+// Steering to full speed along a direction; zero for a zero vector.
 fn toward(way: vec3f, v: vec3f) -> vec3f {
     if dot(way, way) > 0.0 { return truncated(params.max_speed * unit(way) - v, params.max_force); }
     return vec3f();

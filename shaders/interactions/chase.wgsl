@@ -12,7 +12,7 @@ fn gather(me: Particle, you: Particle, r: vec3f, sum: ptr<function, Sum>) {
 
 fn merge(total: ptr<function, Sum>, part: Sum) { (*total).displacement += part.displacement; }
 
-// Where no prey is in range, and in the very middle of it, one flies straight on.
+// Without prey in range, and at the very centre of it, a predator flies straight on.
 fn finish(me: Particle, sum: Sum) -> vec4f {
     let way = unit(sum.displacement);
     if all(way == vec3f()) { return vec4f(); }

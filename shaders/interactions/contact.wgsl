@@ -16,7 +16,7 @@ fn gather(me: Particle, you: Particle, r: vec3f, sum: ptr<function, Sum>) {
     let distance = length(r);
     let overlap = radius[me.index] + radius[you.index] - distance;
     let touches = overlap > 0.0;
-    // Two at one place have no direction between them.
+    // Two particles at the same position have no direction between them.
     if touches && distance > 0.0 {
         let n = r / distance;
         // From the centres to the middle of the overlap.

@@ -7,7 +7,7 @@ fn gather(me: Particle, corner: Corner, sum: ptr<function, Sum>) {
     let on = shortest(particle(corner.third).position - b);
     let before = length(there);
     let after = length(on);
-    // Two at one place make no angle.
+    // Two particles at the same position define no angle.
     if before == 0.0 || after == 0.0 { return; }
     let p = there / before;
     let q = on / after;

@@ -6,7 +6,7 @@ struct Sum { force: vec3f, energy: f32 }
 
 fn gather(me: Particle, you: Particle, r: vec3f, link: Link, sum: ptr<function, Sum>) {
     let square = dot(r, r);
-    // Two at one place have no direction between them.
+    // Two particles at the same position have no direction between them.
     let apart = square > 0.0;
     let inverse = select(0.0, inverseSqrt(square), apart);
     let rest = abs(link.rest);

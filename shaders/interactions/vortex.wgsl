@@ -12,5 +12,5 @@ fn force(me: Particle) -> vec4f {
     return vec4f((flow - velocity[me.index].xyz) * params.rate, 0.0);
 }
 
-// How the flow changes from place to place is left out: it is not symmetric.
+// The gradient of the flow is left out: it is not symmetric.
 fn jvp(me: Particle, dx: vec3f, dv: vec3f) -> vec3f { return -params.rate * dv; }

@@ -1,6 +1,6 @@
 // Steering (Reynolds 1999), for laws that use it:  a = truncate(u − v, f_max), with u the desired velocity.
 
-// The direction of v; what has no length has none, and is zero.
+// The direction of v; zero for a zero vector.
 fn unit(v: vec3f) -> vec3f {
     let size = length(v);
     if size > 0.0 { return v / size; }

@@ -13,7 +13,7 @@ fn count(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: v
         var k = NOWHERE;
         if chosen(i) && is_active(i) {
             k = key(cell(wrapped(position[i].xyz)));
-            // Fixed particles stand behind all others, where the grid keeps them apart.
+            // Fixed particles come after all others, where the grid keeps them separate.
             if is_held(i) { k += grid.cells.x * grid.cells.y * grid.cells.z; }
             arrivals[i] = atomicAdd(&starts[k], 1u);
         }

@@ -15,7 +15,7 @@ fn acts_on(me: Particle) -> bool { return true; }
 fn put(slot: u32, n: u32, id: u32) { list_found[(1u + n / 4u) * world.capacity + slot][n % 4u] = id; }
 
 fn gather(me: Particle, you: Particle, r: vec3f, sum: ptr<function, Sum>) {
-    // The grid looks a little farther than the reach. Positions as they are decide, and not their images in the box.
+    // The grid searches slightly farther than the reach. The stored positions decide, and not their images in the box.
     let way = shortest(position[you.index].xyz - position[me.index].xyz);
     if way.x * way.x + way.y * way.y + way.z * way.z < REACH * REACH {
         if (*sum).number < ROOM { put(me.slot, (*sum).number, you.index); }

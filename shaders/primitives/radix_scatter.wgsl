@@ -9,7 +9,7 @@ struct Extent { unused_word: u32, elements: u32, block: u32, blocks: u32, shift:
 @group(2) @binding(0) var<uniform> extent: Extent;
 @group(2) @binding(1) var<storage, read> table: array<u32>;
 
-// Where the next key of each digit goes.
+// The destination of the next key of each digit.
 var<workgroup> nexts: array<u32, WORKGROUP>;
 
 fn digit(at: u32) -> u32 { return tile[at] >> 16u; }
@@ -23,14 +23,14 @@ fn radix_scatter(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) g
     for (var start = first; start < end; start += TILE) {
         for (var k = 0u; k < EACH; k++) {
             let at = k * WORKGROUP + lane;
-            // What lies behind the last key stays behind it.
+            // Data after the last key stays after it.
             var own = 255u;
             if start + at < end { own = (keys[start + at] >> extent.shift) & extent.mask; }
             tile[at] = (own << 16u) | at;
         }
         workgroupBarrier();
         for (var shift = 16u; shift <= 20u; shift += 4u) { split(shift, lane); }
-        // Where each digit begins in the tile: the columns have done their work.
+        // The start of each digit in the tile: the columns are no longer needed.
         for (var at = lane; at < TILE; at += WORKGROUP) {
             if at == 0u || digit(at - 1u) != digit(at) { columns[digit(at)] = at; }
         }

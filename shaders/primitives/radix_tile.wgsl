@@ -47,7 +47,7 @@ fn split(shift: u32, lane: u32) {
     }
     totals[side + lane] = total;
     workgroupBarrier();
-    // Digits from 8 on stand behind all below 8.
+    // Digits from 8 on come after all below 8.
     var before = total - own + (totals[side + WORKGROUP - 1u] << 16u);
     for (var k = 0u; k < 8u; k++) {
         let counted = columns[8u * lane + k];

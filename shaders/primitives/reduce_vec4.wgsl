@@ -3,6 +3,6 @@ alias Item = vec4f;
 
 fn neutral(bits: u32) -> Item { return vec4f(bitcast<f32>(bits)); }
 
-// What is not a number stays so: WGSL says nothing of min(NaN, x).
+// NaN stays NaN: WGSL does not define min(NaN, x).
 fn broken(item: Item) -> vec4<bool> { return (bitcast<vec4u>(item) & vec4u(0x7fffffffu)) > vec4u(0x7f800000u); }
 fn unless_broken(result: Item, a: Item, b: Item) -> Item { return select(select(result, b, broken(b)), a, broken(a)); }

@@ -21,7 +21,7 @@ fn facet_of(i: u32) -> Facet {
 
 fn turn(a: vec2f, b: vec2f) -> f32 { return a.x * b.y - a.y * b.x; }
 
-// Parts of the three corners, and how far inside of the facet a place is; below 0 it is outside.
+// The parts of the three corners, and the distance of a point from the edge; below 0 it is outside.
 fn parts(f: Facet, p: vec2f) -> vec4f {
     let a = f.a.xy - p;
     let b = f.b.xy - p;

@@ -29,13 +29,13 @@ struct Frame {
     fine: u32,     // samples of a pixel each way, where surfaces, lines and solids are drawn
     thread: f32,   // half the width of a line [pixels]
     triangles: u32,
-    facets: u32,   // triangles, and lines behind them
+    facets: u32,   // triangles, and lines after them
     solids: u32,
     lamp: f32,     // half the height of what the lamp sees [length]
     map: u32,      // pixels of what the lamp sees, each way
     slab: f32,     // what is farther from the centre, towards the eye or away from it, is not drawn [length]
     drop: f32,     // radius at which a particle is drawn at least; of a fluid that of its drops [length]
-    oblate: f32,   // how far a drop's rim is behind its front [drop]
+    oblate: f32,   // depth of a drop's rim behind its front [drop]
     grain: f32,    // parts in which the thickness of a drop is counted
     layer: f32,    // thickness that one of those stands for [length]
     absorption: f32,     // how much a fluid absorbs [1 / length]
@@ -58,7 +58,7 @@ const FAR_OUT: f32 = 1e6;
 
 struct Seen { place: vec2f, depth: f32, scale: f32, visible: bool }
 
-// Where a place is seen; `depth` grows away from the eye, `scale` is in pixels per length there.
+// The position of a point in the picture; `depth` grows away from the eye, `scale` is in pixels per length there.
 fn see(p: vec3f) -> Seen {
     let r = p - frame.center;
     let z = dot(frame.back, r);

@@ -12,7 +12,7 @@
 override WALK: i32 = 64;
 
 const WORKGROUP: u32 = 64u;
-// How much narrower it is at its far end.
+// The relative narrowing at its far end.
 const TAPER: f32 = 0.6;
 
 fn draw(light: vec3f, layer: i32, head: Seen, end: Seen) {

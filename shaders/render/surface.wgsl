@@ -8,7 +8,7 @@
 @group(3) @binding(22) var<storage, read_write> dye: array<u32>;
 
 const WORKGROUP: u32 = 64u;
-// Where there is no fluid.
+// The depth where there is no fluid.
 const NEVER: f32 = 1e30;
 
 // The depth of a key.

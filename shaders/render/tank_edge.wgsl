@@ -3,7 +3,7 @@ struct Edge { a: vec4f, b: vec4f } // two ends: pixels right and down, flat dept
 
 @group(1) @binding(13) var<storage, read> edge: array<Edge>;
 
-// How much of a pixel lines cover that are behind of a depth, and how much those before it; behind of `hidden` there is none.
+// The parts of a pixel that lines cover behind a depth, and in front of it; behind `hidden` there are none.
 fn edges(place: vec2f, depth: f32, hidden: u32) -> vec2f {
     var cover = vec2f();
     for (var k = 0u; k < frame.edges; k += 1u) {

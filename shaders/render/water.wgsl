@@ -20,7 +20,7 @@ const GLASS: vec3f = vec3f(0.42, 0.48, 0.56);
 const BEHIND: f32 = 0.5;
 const BEFORE: f32 = 0.8;
 
-// A place of the surface, in the picture's axes.
+// A point of the surface, in the picture's axes.
 fn place_of(x: i32, y: i32, z: f32) -> vec3f {
     let half = 0.5 * vec2f(f32(frame.width), f32(frame.height));
     let off = (middle(x, y) - half) / vec2f(frame.scale, -frame.scale);
@@ -44,7 +44,7 @@ fn slope(x: i32, y: i32, z: f32, way: vec2i) -> vec3f {
     return place_of(x + way.x, y + way.y, b) - here;
 }
 
-// What is behind the fluid, at a pixel.
+// The colour behind the fluid, at a pixel.
 fn under(place: vec2f, depth: f32) -> vec3f {
     let size = vec2f(f32(frame.width), f32(frame.height));
     let q = min(max(place, vec2f()), size - 0.5);

@@ -11,7 +11,7 @@ override WORDS: u32;
 
 @compute @workgroup_size(1)
 fn proceed() {
-    // Iterations have their arguments in two buffers by turns: none writes where it is dispatched from.
+    // Iterations alternate between two argument buffers: none writes the one from which it is dispatched.
     let first = iterations[0] / 2u * WORDS;
     iterations[0] += 1u;
     if flag[WORD] == 0u {

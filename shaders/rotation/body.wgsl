@@ -6,7 +6,7 @@ fn inward(q: vec4f, v: vec3f) -> vec3f { return v + turned(vec4f(-q.xyz, q.w), v
 
 fn outward(q: vec4f, v: vec3f) -> vec3f { return v + turned(q, v); }
 
-// 1 / I; about an axis without a moment nothing turns.
+// 1 / I; a body does not rotate about an axis without a moment.
 fn lightness(i: u32) -> vec3f {
     let moments = inertia[i].xyz;
     return select(vec3f(), 1.0 / moments, moments > vec3f());

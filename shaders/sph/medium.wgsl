@@ -11,5 +11,5 @@ override NEGATIVE: bool;    // whether pressure may be below 0
 
 fn kernel(r: vec3f) -> f32 { return WEIGHT * profile(sqrt(r.x * r.x + r.y * r.y + r.z * r.z) * PER_SUPPORT); }
 
-// What times r is the gradient of the kernel, for a particle r away.
+// The factor of r in the gradient of the kernel, for a particle at distance r.
 fn gradient(r: vec3f) -> f32 { return SLOPE * profile_slope(sqrt(r.x * r.x + r.y * r.y + r.z * r.z) * PER_SUPPORT); }

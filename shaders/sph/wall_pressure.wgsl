@@ -18,7 +18,7 @@ fn gather(me: Particle, you: Particle, r: vec3f, sum: ptr<function, Sum>) {
 }
 
 fn finish(me: Particle, sum: Sum) {
-    // Where no fluid is around, both are 0.
+    // Without fluid nearby, both are 0.
     let p = sum.pressure / max(sum.number, 1e-30);
     wall_pressure[me.slot] = select(max(p, 0.0), p, NEGATIVE) / (REST_DENSITY * REST_DENSITY);
 }

@@ -18,7 +18,7 @@ fn key(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec
     }
     if i < world.count {
         let cube = tree_cube[0];
-        // A place that is NaN is in some cell: the watch finds it.
+        // A position that is NaN is in some cell: the watch finds it.
         let cell = vec3u((position[i].xyz - cube.xyz) * cube.w);
         let words = hilbert(min(cell, vec3u(CELLS - 1u)));
         tree_upper[i] = words.x;

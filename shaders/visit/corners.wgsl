@@ -1,7 +1,7 @@
 // Each particle visits the joints, or the triangles, of which it is a corner, in the order of their ids. The law defines:
 // fn gather(me, corner: Corner, sum: ptr<function, Sum>), and fn finish(me, sum: Sum) -> vec4f, acceleration and potential per unit mass.
 // An element is stored with each of its three corners, so nothing is written twice.
-struct Corner { first: u32, second: u32, third: u32, place: u32, stiffness: f32 } // `place` says which of the three I am: 0, 1, 2
+struct Corner { first: u32, second: u32, third: u32, place: u32, stiffness: f32 } // `place` is my index among the three: 0, 1, 2
 
 @group(2) @binding(0) var<storage, read> corner_start: array<u32>; // one for each particle, and the end
 @group(2) @binding(1) var<storage, read> corner: array<Corner>;

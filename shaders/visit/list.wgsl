@@ -7,7 +7,7 @@ override FIRST_ROW: u32 = 0u;
 const WORKGROUP: u32 = 64u;
 const NONE: u32 = 0xffffffffu;
 
-// `pair` is the place of the pair's history.
+// `pair` is the index of the pair's history.
 struct Particle { index: u32, position: vec3f, mass: f32, pair: u32 }
 
 fn neighbor(id: u32, pair: u32) -> Particle {

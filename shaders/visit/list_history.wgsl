@@ -3,7 +3,7 @@
 
 const REMEMBERS: bool = true;
 
-// What the last step left; 0 where the pair was not in range then, or nothing was left.
+// The value stored by the last step; 0 where the pair was not in range then, or nothing was stored.
 fn recall(you: Particle, word: u32) -> f32 {
     if you.pair == NONE || word >= SLOTS { return 0.0; }
     return history[word_of(you.pair, world.step, word)];
@@ -14,7 +14,7 @@ fn remember(you: Particle, word: u32, value: f32) {
     if you.pair != NONE && word < SLOTS { history[word_of(you.pair, world.step + 1u, word)] = value; }
 }
 
-// This step leaves nothing, until the law says so.
+// This step stores nothing, until the law does.
 fn forget(pair: u32) {
     for (var word = 0u; word < SLOTS; word += 1u) { history[word_of(pair, world.step + 1u, word)] = 0.0; }
 }

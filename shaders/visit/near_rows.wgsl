@@ -7,7 +7,7 @@ override MOST: u32 = 240000u;
 // What a stretch costs beside its candidates, in candidates: the iterations of the loops around it, and one that is not full.
 const STRETCH: u32 = 16u;
 
-// My cell, how far I look, and how many rows and cells that is.
+// My cell, the reach of the search, and the numbers of rows and cells in it.
 struct Around { cell: vec3u, reach: vec3u, span: vec3u }
 // Some neighbouring slots, and what to add to the way to particles there: a period, where they lie behind the seam.
 struct Stretch { start: u32, end: u32, shift: vec3f }
@@ -21,7 +21,7 @@ fn reach(x: vec3f) -> vec3u {
 
 fn around(x: vec3f) -> Around { return cube(cell(x), reach(x)); }
 
-// Where an axis has fewer cells than I look at, each is looked at once.
+// If an axis has fewer cells than the search covers, each is visited once.
 fn cube(cell: vec3u, reach: vec3u) -> Around {
     let r = min(reach, grid.cells);
     return Around(cell, r, min(2u * r + 1u, grid.cells));
@@ -38,7 +38,7 @@ fn stretch(a: Around, low: u32, high: u32, z: u32, y: u32, part: u32) -> Stretch
     let second = z >= a.span.z;
     let c = vec3i(i32(low), i32(a.cell.y + y), i32(a.cell.z + z - select(0u, a.span.z, second))) - r;
     let row = n.x * (wrap(c.y, n.y) + n.y * (wrap(c.z, n.z) + select(0, n.z, second)));
-    // Where the whole row is looked at there is one part.
+    // If the whole row is searched there is one part.
     let whole = a.span.x == grid.cells.x && 2 * r.x >= n.x;
     let top = i32(high) + r.x + 1;
     var first = select(max(c.x, 0), 0, whole);
@@ -63,7 +63,7 @@ fn turn(c: i32, n: i32) -> i32 { return i32(c >= n) - i32(c < 0); }
 // Whether a row reaches over the seam.
 fn seam(a: Around) -> bool { return a.cell.x < a.reach.x || a.cell.x + a.reach.x >= grid.cells.x; }
 
-// The way to a neighbour. Where a period has so few cells that both sides of the seam are one, any image may be the nearest.
+// The vector to a neighbour. Where a period has so few cells that both sides of the seam coincide, any image may be the nearest.
 override NARROW: bool = false;
 
 fn way(me: vec3f, you: vec3f, shift: vec3f) -> vec3f {

@@ -27,7 +27,7 @@ fn beside(a: Around, lane: u32) -> bool {
 @compute @workgroup_size(WORKGROUP)
 fn near(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u, @builtin(local_invocation_index) lane: u32,
         @builtin(subgroup_invocation_id) place: u32) {
-    // Lanes behind the last target repeat it; nothing of theirs is stored.
+    // Lanes after the last target repeat it; their results are not stored.
     let mine = grid.first + folded(group, groups) * WORKGROUP + lane;
     let k = min(mine, grid.end - 1u);
     let me = target_of(k);

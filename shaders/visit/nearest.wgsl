@@ -22,7 +22,7 @@ fn empty() -> List {
     return List(d, d, d, d, i, i, i, i);
 }
 
-// Puts an entry into four of the list; those behind it move on, and the last falls out.
+// Puts an entry into four of the list; those after it move on, and the last is dropped.
 fn insert(e: ptr<function, Entry>, d: ptr<function, vec4f>, i: ptr<function, vec4u>) {
     let tied = (vec4f((*e).d) == *d) & (vec4u((*e).id) < *i);
     let before = (vec4f((*e).d) < *d) | tied;

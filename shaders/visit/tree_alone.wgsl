@@ -71,14 +71,14 @@ fn walk(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: ve
                 } else {
                     slot = (node - (1u << tree.height)) * LEAF;
                     bodies = select(0u, LEAF, open);
-                    // Behind the last of all levels stands a power of two.
+                    // After the last of all levels comes a power of two.
                     let up = countTrailingZeros(node + 1u);
                     node = (node + 1u) >> up;
                     depth -= up;
                     more = node > 1u;
                 }
             }
-            // A loop that has nothing to do takes a turn to see that.
+            // A loop with nothing to do takes an iteration to detect that.
             spent += 2u;
         }
         merge(&near_a, far_a);

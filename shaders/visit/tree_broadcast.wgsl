@@ -26,7 +26,7 @@ fn meet(index: u32, you: vec4f, a: Particle, b: Particle, c: Particle, d: Partic
     gather(d, p, shortest(p.position - d.position), sum_d);
 }
 
-// What lane 0, 1, … holds.
+// The value of lane 0, 1, …
 fn group0(g: Group) -> Group { return Group(subgroupBroadcast(g.mass, 0u), subgroupBroadcast(g.diagonal, 0u), subgroupBroadcast(g.mixed, 0u)); }
 fn group1(g: Group) -> Group { return Group(subgroupBroadcast(g.mass, 1u), subgroupBroadcast(g.diagonal, 1u), subgroupBroadcast(g.mixed, 1u)); }
 fn group2(g: Group) -> Group { return Group(subgroupBroadcast(g.mass, 2u), subgroupBroadcast(g.diagonal, 2u), subgroupBroadcast(g.mixed, 2u)); }

@@ -81,7 +81,7 @@ fn look(search: ptr<function, Search>, here: Place, own: u32, place: u32) {
     s.node = (s.node & ~7u) + countTrailingZeros(s.waits.x & 255u);
     s.waits.x &= s.waits.x - 1u;
     s.levels = 3u;
-    // Loops that have nothing to do take a turn each to see that.
+    // Loops with nothing to do take an iteration each to detect that.
     s.spent += 4u;
     *search = s;
 }

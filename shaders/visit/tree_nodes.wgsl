@@ -35,7 +35,7 @@ struct Place { first: u32, middle: vec3f, half_side: vec3f, demand: f32, wide: f
 fn all_leaves() -> u32 { return (world.count + LEAF - 1u) / LEAF; }
 fn last_target() -> u32 { return min(tree.end, world.count); }
 
-// What a node holds.
+// The contents of a node.
 fn group_at(node: u32) -> Group {
     let m = tree_mass[node];
     let q = tree_shape[node];
@@ -48,7 +48,7 @@ fn place_at(group: u32, first: u32, low: vec3f, high: vec3f) -> Place {
     return Place(first, 0.5 * (low + high), half_side, demand_of(group), 0.25 * longest * longest);
 }
 
-// Where a group is: the box of its targets, of which `first` is there.
+// The bounds of a group: the box of its targets, of which `first` exists.
 fn place_of(group: u32, first: u32) -> Place {
     var low = tree_body[first].xyz;
     var high = low;
@@ -62,7 +62,7 @@ fn place_of(group: u32, first: u32) -> Place {
 // The leaf at which a group begins.
 fn leaf_of(group: u32) -> u32 { return (1u << tree.height) + group * (GROUP / LEAF); }
 
-// A node holds the group that begins at a leaf, or is held by it.
+// A node contains the group that begins at a leaf, or is contained in it.
 fn is_own(node: u32, depth: u32, leaf: u32) -> bool {
     let below = tree.height - depth;
     return leaf >> below == node || (node << below) - leaf < GROUP / LEAF;
@@ -70,12 +70,12 @@ fn is_own(node: u32, depth: u32, leaf: u32) -> bool {
 
 fn squared_size(d: vec3f) -> f32 { return d.x * d.x + d.y * d.y + d.z * d.z; }
 
-// The minimum distance from the group's box to a place, squared.
+// The minimum distance from the group's box to a point, squared.
 fn apart(place: Place, x: vec3f) -> f32 {
     return squared_size(max(abs(shortest(x - place.middle)) - place.half_side, vec3f()));
 }
 
-// The minimum distance from any of the targets to a place, squared.
+// The minimum distance from any of the targets to a point, squared.
 fn nearest(place: Place, x: vec3f) -> f32 {
     var least = squared_size(shortest(x - tree_body[place.first].xyz));
     for (var k = place.first + 1u; k < min(place.first + GROUP, world.count); k += 1u) {
@@ -100,7 +100,7 @@ fn target_of(slot: u32) -> Particle {
     return Particle(tree_id[slot], p.xyz, p.w);
 }
 
-// A node stands on the level of `depth`, and has particles.
+// A node is on the level of `depth`, and contains particles.
 fn exists(node: u32, depth: u32) -> bool {
     return ((node - (1u << depth)) << (tree.height - depth)) < all_leaves();
 }

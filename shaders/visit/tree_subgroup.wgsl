@@ -37,7 +37,7 @@ fn walk(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: ve
     let walks = there && (tree.again == 0u || search.more);
     var met = vec2u();
     loop {
-        // Looks at nodes until a list is long, or until there are none.
+        // Visits nodes until a list is long, or until no node is left.
         while search.more && search.listed.x - met.x < FAR
             && search.listed.y - met.y < NEAR && search.spent <= MOST {
             look(&search, here, own, place);

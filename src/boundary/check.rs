@@ -1,4 +1,4 @@
-//! Which boxes there can be, and which particles they can hold.
+//! Validation of boxes, and of the particles in them.
 
 use glam::DVec3;
 

@@ -6,7 +6,7 @@ use crate::kernel::Scalar;
 use crate::settings::{Key, Kind, Settings, Value};
 use crate::visit::Over;
 
-/// The settings that a shader's `Params` has by the same names.
+/// The settings that a shader's `Params` contains under the same names.
 pub fn params(settings: &Settings, names: &[&str]) -> Vec<(String, Scalar)> {
     let scalar = |name: &&str| {
         let value = match settings.0.get(*name) {
@@ -31,7 +31,7 @@ pub fn over(settings: &Settings, of: Option<u32>) -> Over {
     }
 }
 
-/// Which neighbours.
+/// The search for neighbours.
 pub const SEE_NEAR: Key = Key::new(
     "over",
     Kind::Choice(&["near", "list", "auto", "within"]),
@@ -39,7 +39,7 @@ pub const SEE_NEAR: Key = Key::new(
     "how neighbours in range are found: by a cell list, by a neighbour list that is reused over steps, by the faster of both, or by brute force",
 );
 
-/// How far a list reaches beyond the range.
+/// The distance by which a list exceeds the range.
 pub const SKIN: Key = Key::new(
     "skin",
     Kind::NotNegative,
@@ -51,7 +51,7 @@ pub const SKIN: Key = Key::new(
 pub const SEED: Key =
     Key::new("seed", Kind::Whole, Value::Number(1.0), "seed of the random numbers, counted by id and step");
 
-/// The words of the seed, as shaders know them.
+/// The words of the seed, as in shaders.
 pub fn seed(settings: &Settings) -> [(String, Scalar); 2] {
     let [low, high] = crate::visit::random::words(settings.whole("seed"));
     [("seed_low".to_owned(), Scalar::Uint(low)), ("seed_high".to_owned(), Scalar::Uint(high))]

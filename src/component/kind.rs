@@ -19,21 +19,21 @@ pub const SPECIES: Key = Key::new(
 );
 
 impl Kind {
-    /// Whether a particle is of it.
+    /// Whether a particle is of this species.
     pub fn has(self, body: &Particle) -> bool {
         self.is(body.species())
     }
-    /// Whether a species is.
+    /// Whether a species is this one.
     pub fn is(self, species: u32) -> bool {
         self.0.is_none_or(|own| own == species)
     }
-    /// As shaders know it: see `shaders/law/species.wgsl`.
+    /// Its value in shaders: see `shaders/law/species.wgsl`.
     pub fn scalar(self) -> Scalar {
         Scalar::Uint(self.0.unwrap_or(u32::MAX))
     }
 }
 
-/// What a key of [`settings::Kind::Species`] says, and the same for a shader.
+/// The value of a key of [`settings::Kind::Species`], and the same for a shader.
 pub fn species(settings: &Settings, name: &str) -> (Kind, Scalar) {
     let kind = Kind(settings.species(name));
     (kind, kind.scalar())

@@ -1,10 +1,10 @@
-//! A component whose settings make no sense: an error, wherever a plan is written.
+//! A component with invalid settings: an error wherever a plan is written.
 
 use super::{Component, Problem, Stage};
 use crate::error::Error;
 use crate::kernel::Plan;
 
-/// A component that cannot be built, and why.
+/// A component that cannot be built, and the reason.
 #[derive(Clone)]
 struct Misnamed(String);
 

@@ -23,7 +23,7 @@ use crate::visit::Law;
 /// A component: an interaction, a constraint or an updater. A simulation keeps a copy, from which it rewrites its plan when it
 /// allocates more rows.
 pub trait Component: Copied + Send + Sync {
-    /// The columns that it reads or writes beside those of all simulations.
+    /// The columns that it reads or writes in addition to those of all simulations.
     fn columns(&self) -> Vec<Column> {
         Vec::new()
     }
@@ -31,7 +31,7 @@ pub trait Component: Copied + Send + Sync {
     fn laws(&self) -> Vec<Law> {
         Vec::new()
     }
-    /// The name by which [`Simulation::set`](crate::Simulation::set) knows it; an empty one cannot be set.
+    /// The name used by [`Simulation::set`](crate::Simulation::set); a component with an empty name cannot be set.
     #[expect(clippy::unnecessary_literal_bound, reason = "a user's law has a name of its own")]
     fn name(&self) -> &str {
         ""
@@ -43,21 +43,21 @@ pub trait Component: Copied + Send + Sync {
     fn changed(&self, name: &str, _to: &Change) -> Result<Box<dyn Component>, Error> {
         Err(Error::Scene(format!("the component has no setting `{name}`: it has none")))
     }
-    /// What it says of itself, as its settings have it.
+    /// Its properties, which depend only on its settings.
     fn properties(&self) -> Properties {
         Properties::default()
     }
-    /// Refuses settings that make no sense together, or in such a box.
+    /// Refuses settings that are invalid together, or in such a box.
     ///
     /// # Errors
     /// [`Error::Setting`] with the key, or [`Error::Scene`].
     fn check(&self, _bounds: &Bounds) -> Result<(), Error> {
         Ok(())
     }
-    /// What it says of itself in a problem.
+    /// Its properties in a problem.
     ///
     /// # Errors
-    /// [`Error::Scene`] when it makes no sense there.
+    /// [`Error::Scene`] when it is invalid there.
     fn resolved(&self, problem: &Problem) -> Result<Resolved, Error> {
         let cell_lists = self.laws().into_iter().filter_map(|law| law.grid(problem).transpose());
         Ok(Resolved { cell_lists: cell_lists.collect::<Result<_, _>>()?, ..Resolved::default() })
@@ -65,7 +65,7 @@ pub trait Component: Copied + Send + Sync {
     /// Adds its kernels at a stage of a step; by default, those of its laws where accelerations are evaluated.
     ///
     /// # Errors
-    /// When a law does not compile or lacks a parameter, or the component makes no sense there.
+    /// When a law does not compile or lacks a parameter, or the component is invalid there.
     fn stage(&self, stage: Stage, plan: &mut Plan, problem: &Problem) -> Result<(), Error> {
         match stage {
             Stage::Evaluate { earlier } => evaluate(self.laws(), earlier, plan, problem),
@@ -75,7 +75,7 @@ pub trait Component: Copied + Send + Sync {
     }
 }
 
-/// What becomes of a setting or of a table, in [`Simulation::set`](crate::Simulation::set).
+/// A new value of a setting or of a table, for [`Simulation::set`](crate::Simulation::set).
 #[derive(Debug, Clone, PartialEq)]
 pub enum Change {
     /// A setting, or a parameter of a user's law.
@@ -105,7 +105,7 @@ impl From<&[Vec4]> for Change {
     }
 }
 
-/// What makes a copy of a component in a box; whatever is `Clone` has it.
+/// Copying of a boxed component; implemented for everything that is `Clone`.
 pub trait Copied {
     /// The copy.
     fn copied(&self) -> Box<dyn Component>;
@@ -123,31 +123,31 @@ impl Clone for Box<dyn Component> {
     }
 }
 
-/// Where in a step kernels run.
+/// The stage of a step at which kernels run.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Stage {
-    /// Once, before the first step, when fixed particles are where they belong.
+    /// Once, before the first step, when fixed particles are at their positions.
     Start,
-    /// Where accelerations are evaluated. `earlier` counts the components of its kind before it in the scene.
+    /// Where accelerations are evaluated.
     Evaluate {
-        /// The number of those.
+        /// The number of components of the same kind before it in the scene.
         earlier: usize,
     },
-    /// Where the rates of columns are computed that are carried along with positions: in the middle of each drift, and in each
-    /// stage of a Runge–Kutta step. Cell lists are those of where particles are.
+    /// Where the rates are computed of columns that are advanced with positions: in the middle of each drift, and in each stage of a
+    /// Runge–Kutta step. Cell lists are those of the current positions.
     Carry {
         /// As where accelerations are evaluated.
         earlier: usize,
     },
-    /// After every kick, and at the end of a Runge–Kutta step: velocities are brought within limits.
+    /// After every kick, and at the end of a Runge–Kutta step: velocities are constrained.
     AfterKick,
-    /// After every drift, by `factor` of the step: positions are brought to where they may be.
+    /// After every drift, by `factor` of the step: positions are constrained.
     AfterDrift {
         /// The part of the step.
         factor: f64,
     },
-    /// The same after a part of the step that was no drift, as that of a Runge–Kutta or an implicit method: x − c v dt need
-    /// not be where it began.
+    /// The same after a part of the step that was no drift, such as that of a Runge–Kutta or an implicit method: x − c v dt need not be its
+    /// start.
     AfterAdvance {
         /// The part of the step.
         factor: f64,
@@ -161,40 +161,40 @@ pub enum Stage {
     EndOfStep,
 }
 
-/// What a component says of itself, as its settings have it.
+/// Properties of a component that depend only on its settings.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Properties {
     /// The radius \[length\] and the species, if not all, for the statistics of a flock: order, neighbours and clusters.
     pub statistics_radius: Option<(f64, Option<u32>)>,
-    /// The solid that pictures show for it.
+    /// The obstacle that pictures show for it.
     pub pictured: Option<Standing>,
     /// Whether massless particles exert no force: then pending and removed particles may be among its sources.
     pub ignores_massless: bool,
-    /// Why it requires a fixed time step, if it does.
+    /// The reason for requiring a fixed time step, if it does.
     pub fixed_step: Option<&'static str>,
     /// Whether it breaks bonds.
     pub breaks_bonds: bool,
-    /// Whether it is evaluated after all others, wherever the scene names it.
+    /// Whether it is evaluated after all others, wherever it is in the scene.
     pub evaluated_last: bool,
-    /// Whether rods keep their lengths by it.
+    /// Whether it keeps rods at their lengths.
     pub keeps_rods: bool,
-    /// Whether it changes positions or velocities beside accelerations, so that neither energy nor momentum is conserved.
+    /// Whether it changes positions or velocities other than by accelerations, so that neither energy nor momentum is conserved.
     pub constrains: bool,
-    /// What of it changes the energy that is measured, in a word or two each, beside what its laws tell.
+    /// Its mechanisms that change the measured energy, in a word or two each, in addition to those of its laws.
     pub dissipates: Vec<&'static str>,
     /// The same, where some particles are fixed.
     pub dissipates_at_walls: Vec<&'static str>,
     /// Whether it changes the angular momentum.
     pub turns: bool,
-    /// Whether it makes a fluid of all particles that are not fixed.
+    /// Whether it makes all particles that are not fixed a fluid.
     pub makes_fluid: bool,
-    /// Whether it can say how long a step may be, so that steps can be adaptive.
+    /// Whether it can limit the time step, so that steps can be adaptive.
     pub limits_steps: bool,
-    /// The integrators with which it agrees with its paper; none: all of them.
+    /// The integrators with which it agrees with its paper; empty: all of them.
     pub integrators: &'static [&'static str],
-    /// The distance that a particle may go in a step at most, where its method has such a bound \[length\].
+    /// The maximum distance that a particle may move in a step, if its method has such a bound \[length\].
     pub largest_move: Option<f64>,
-    /// Columns whose values have an upper limit: above it the component would be wrong.
+    /// Columns with an upper limit: above it the results of the component would be wrong.
     pub largest: Vec<Largest>,
     /// A remark for the user before a run.
     pub caution: Option<&'static str>,
@@ -207,31 +207,29 @@ pub struct Largest {
     pub column: &'static str,
     /// The value, in the column's unit.
     pub value: f64,
-    /// What sets it.
+    /// The reason for the limit.
     pub why: &'static str,
 }
 
-/// What a component says of itself in a problem.
+/// Properties of a component in a problem.
 #[derive(Default)]
 pub struct Resolved {
-    /// The cell lists that it searches, and whether it asks there for velocities.
+    /// The cell lists that it searches, and whether it reads velocities there.
     pub cell_lists: Vec<(Grid, bool)>,
     /// The fluid that it makes of all particles that are not fixed.
     pub fluid: Option<Continuum>,
-    /// How fast that fluid oscillates and creeps, at most.
+    /// The maximum rates of oscillation and creep of that fluid.
     pub rates: Option<Rates>,
-    /// Where a particle of a species is put that stands somewhere before the first step, if there are places where it lets none
-    /// be.
+    /// The initial projection of a particle of a species, if there are positions that the component does not allow.
     pub initial_projection: Option<Projection>,
-    /// Where the length of steps is found by it: how many steps viscosity, which is the same for all particles, asks for in a
-    /// longest one.
+    /// With adaptive steps: the number of steps per longest step that viscosity requires, which is the same for all particles.
     pub viscous_steps: Option<f64>,
 }
 
-/// Where a particle of a species belongs that stands somewhere.
+/// The projected position of a particle of a species.
 pub type Projection = Box<dyn Fn(u32, DVec3) -> DVec3 + Send + Sync>;
 
-/// Adds the kernels of laws to a plan; `earlier` counts the components of their kind before them. Laws of what is carried along
+/// Adds the kernels of laws to a plan; `earlier` counts the components of their kind before them. Laws that write rates of columns advanced
 /// with positions are left to [`carry`].
 ///
 /// # Errors
@@ -240,7 +238,7 @@ pub fn evaluate(laws: Vec<Law>, earlier: usize, plan: &mut Plan, problem: &Probl
     add(laws.into_iter().filter(|law| !carries(law, problem)), earlier, plan, problem)
 }
 
-/// Adds the kernels of laws that write rates of what is carried along with positions.
+/// Adds the kernels of laws that write rates of columns advanced with positions.
 ///
 /// # Errors
 /// When a law does not compile or lacks a parameter.
@@ -256,7 +254,7 @@ fn add(laws: impl Iterator<Item = Law>, earlier: usize, plan: &mut Plan, problem
     Ok(())
 }
 
-/// Whether a law writes the rate of a column that is carried along with positions.
+/// Whether a law writes the rate of a column that is advanced with positions.
 #[must_use]
 pub fn carries(law: &Law, problem: &Problem) -> bool {
     let mut pairs = problem.columns.pairs().into_iter();
@@ -269,7 +267,7 @@ pub fn numbered(name: &str, earlier: usize) -> String {
     if earlier == 0 { name.to_owned() } else { format!("{name} {}", earlier + 1) }
 }
 
-/// What kind of a component it is.
+/// The role of a component.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Role {
     /// It accelerates particles, or computes columns of them.
@@ -282,14 +280,14 @@ pub enum Role {
 
 /// A line of a register.
 pub struct Entry {
-    /// The scene's word for it.
+    /// Its name in scenes.
     pub name: &'static str,
     /// One line for a list.
     pub about: &'static str,
-    /// What a scene may say to it.
+    /// Its settings.
     pub keys: &'static [Key],
-    /// What kind of a component it is.
+    /// Its role.
     pub role: Role,
-    /// Makes one, from checked settings. What they say that it has no key for is an error of every simulation with it.
+    /// Builds one, from checked settings. An unknown setting is an error of every simulation with it.
     pub build: fn(&Settings) -> Box<dyn Component>,
 }

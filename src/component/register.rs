@@ -1,9 +1,9 @@
-//! A register of components: a line for each, which is its file, its type and what it is.
+//! A register of components: a line for each, with its file, its type and its role.
 
 macro_rules! components {
     ($list:ident, $role:ident; $($module:ident: $type:ident, $about:literal;)*) => {
         $(pub(crate) mod $module; pub use $module::$type;)*
-        /// What a scene may name.
+        /// The components that a scene may name.
         pub const $list: &[crate::component::Entry] = &[$(crate::component::Entry {
             name: stringify!($module),
             about: $about,

@@ -1,4 +1,4 @@
-//! A component of a register, which keeps its settings, so that one of them can be changed.
+//! A registered component, which keeps its settings, so that one of them can be changed.
 
 use super::misnamed::misnamed;
 use super::{Change, Component, Properties, Resolved, Stage};
@@ -7,10 +7,10 @@ use crate::kernel::{Bounds, Column, Plan, Problem};
 use crate::settings::{Key, Settings, unknown};
 use crate::visit::Law;
 
-/// What makes a component from checked settings.
+/// A function that builds a component from checked settings.
 type Make = fn(&Settings) -> Box<dyn Component>;
 
-/// A component, and what it was made of.
+/// A component, and its settings.
 #[derive(Clone)]
 struct Registered {
     name: &'static str,
@@ -28,7 +28,7 @@ pub fn registered(name: &'static str, keys: &'static [Key], settings: &Settings,
     }
 }
 
-/// All that it does is done by the component that was made.
+/// All methods are delegated to the component that was built.
 impl Component for Registered {
     fn name(&self) -> &str {
         self.name

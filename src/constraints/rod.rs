@@ -66,7 +66,7 @@ fn add(plan: &mut Plan, problem: &Problem, factor: f64, settles: bool) -> Result
     Ok(())
 }
 
-/// The kernel behind a drift by a part of the step, or with 0 behind a kick; or behind a step that `settles`.
+/// The kernel after a drift by a part of the step, or with 0 after a kick; or after a step that `settles`.
 fn kernel(chains: Chains, factor: f64, settles: bool) -> Result<Kernel, Error> {
     let shader = Shader::join(&[crate::shader!("world.wgsl"), crate::shader!("constraints/rod.wgsl")])?;
     let count = u32::try_from(chains.len()).unwrap_or(u32::MAX);
@@ -107,7 +107,7 @@ fn kernel(chains: Chains, factor: f64, settles: bool) -> Result<Kernel, Error> {
     let constants = vec![("FACTOR", factor), ("CHAINS", f64::from(count)), ("SETTLES", f64::from(u8::from(settles)))];
     let mut kernel = Kernel::new("rod", shader, constants, count, Arc::new(reference));
     for pass in &mut kernel.passes {
-        // Each particle of a chain is looked at about as often as it would be in pair evaluations with so many.
+        // Each particle of a chain is accessed about as often as in this many pair evaluations.
         pass.work = 16 * nodes;
     }
     Ok(Kernel { sizes, tables, scratch: vec!["chain_sweep".into()], ..kernel })
@@ -143,8 +143,7 @@ impl Chain {
             *v += change;
         }
     }
-    /// Goes to where the rods have these lengths, along some directions or always along the rods as they are, and says by
-    /// which changes.
+    /// Moves particles until the rods have these lengths, along fixed directions or always along the present rods, and returns the changes.
     fn reach(&mut self, fixed: Option<&[DVec3]>, lengths: &[f64]) -> Vec<DVec3> {
         let mut moved = vec![DVec3::ZERO; self.x.len()];
         let mut worst = f64::INFINITY;
@@ -172,7 +171,7 @@ impl Chain {
     /// Solves R W Gᵀ λ = b, which ties a rod to the two beside it, by rotations (Givens 1958).
     fn solve(&self, ways: &[DVec3], along: &[DVec3], mut b: Vec<f64>) -> Vec<f64> {
         let last = ways.len() - 1;
-        // What a rod changes in another, by the particle that they share, at its other end.
+        // The effect of a rod on another, through the particle that they share.
         let shared = |n: usize, m: usize| -self.w[n.max(m)] * ways[n].dot(along[m]);
         let mut rows: Vec<[f64; 3]> = (0..=last)
             .map(|n| {

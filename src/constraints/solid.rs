@@ -35,7 +35,7 @@ pub const KEYS: &[Key] = &[
 #[derive(Clone)]
 pub struct Solid(Settings);
 
-/// What a kernel is made of.
+/// The parts of a kernel.
 struct Wall {
     shape: Shape,
     /// 1, or −1 for a container.
@@ -198,7 +198,7 @@ fn kernel(wall: Wall, problem: &Problem, factor: f64) -> Result<Kernel, Error> {
     Ok(Kernel { sizes, tables, ..kernel })
 }
 
-/// Where a solid is: its middle, its pose, and the point that the pose's rates are of.
+/// The position of a solid: its centre, its pose, and the reference point of the pose's rates.
 struct Frame {
     centre: DVec3,
     pivot: DVec3,
@@ -213,14 +213,14 @@ impl Wall {
             Frame { centre: motion.place(self.position, time), pivot: motion.about + pose.shift, pose }
         })
     }
-    /// The way out, how far behind the margin it is, and where from the middle.
+    /// The direction out, the depth below the margin, and the position relative to the centre.
     fn touch(&self, frame: &Frame, x: DVec3, world: &World) -> (DVec3, f64, DVec3) {
         let r = x - frame.centre;
         let r = if matches!(self.shape, Shape::Plane(_)) { r } else { world.bounds.shortest(r) };
         let (n, distance) = self.shape.distance(frame.pose.turn.inverse() * r, world.bounds.dimensions);
         (self.side * (frame.pose.turn * n), self.margin - self.side * distance, r)
     }
-    /// What becomes of a position and a velocity in a drift of length `dt`.
+    /// The position and the velocity after a drift of length `dt`.
     fn meet(&self, frame: &Frame, x: DVec3, v: DVec3, dt: f64, world: &World) -> (DVec3, DVec3) {
         let (n, depth, r) = self.touch(frame, x, world);
         if !(depth > 0.0 && x.is_finite()) {

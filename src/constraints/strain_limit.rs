@@ -18,7 +18,7 @@ pub const KEYS: &[Key] = &[
     Key::new("over", Kind::Choice(&["links"]), Value::Text(Cow::Borrowed("links")), "what is limited: springs and ropes"),
 ];
 
-/// Where a sweep wants particles to be.
+/// The target positions of a sweep.
 const LIMITED: Field<Vec4> = Field::new("limited");
 
 /// `strain_limit`: after each drift, ends of springs longer than (1 + strain) L are brought nearer (Provot 1995), all at once

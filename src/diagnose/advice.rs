@@ -12,7 +12,7 @@ use glam::{DVec3, DVec4};
 
 use super::{Remark, births, jumps, rounding, solves};
 
-/// What a law's reference says to a particle at rest somewhere.
+/// The acceleration of a particle at rest at a position, by a law's reference.
 pub fn acceleration_at(
     reference: &Reference,
     (time, step): (f64, u32),
@@ -61,12 +61,12 @@ fn in_the_plane(name: &str, reference: &Reference, setup: &Setup) -> Result<(), 
     })
 }
 
-/// What a run conserves.
+/// The quantities that a run conserves.
 #[derive(Debug, Clone)]
 pub struct Conserved {
     /// The total energy.
     pub energy: bool,
-    /// What takes or gives it, where a force says so.
+    /// The forces that change them, if any.
     pub takers: Vec<&'static str>,
     /// The momentum.
     pub momentum: bool,
@@ -79,7 +79,7 @@ fn damped(links: &Links) -> bool {
     links.springs.iter().any(|spring| spring.damping > 0.0)
 }
 
-/// What is tied and does not pull: no law visits it. Triangles are there for pictures too.
+/// Links that exert no force, because no law evaluates them. Triangles may exist for pictures only.
 fn idle(links: &Links, laws: &[Law]) -> Vec<Remark> {
     let ties = [
         (links.springs.len(), Over::Links, "springs", "spring"),
@@ -94,11 +94,11 @@ fn idle(links: &Links, laws: &[Law]) -> Vec<Remark> {
     .collect()
 }
 
-/// What all forces and the sides of the box keep. A mirror takes momentum and keeps energy; where particles leave at one
-/// side and come in at the other, momentum stays, and the angular momentum is about nothing.
+/// The quantities that all forces and the sides of the box conserve. A mirror changes momentum and conserves energy; in a periodic box
+/// momentum is conserved, and the angular momentum is meaningless.
 ///
 /// # Errors
-/// When the setup makes no sense.
+/// When the setup is invalid.
 pub fn conserved(setup: &Setup) -> Result<Conserved, Error> {
     let (periodic, reflecting) = (setup.bounds.has(Side::Periodic), setup.bounds.has(Side::Reflecting));
     let mut conserved = Conserved {
@@ -111,10 +111,10 @@ pub fn conserved(setup: &Setup) -> Result<Conserved, Error> {
     for law in setup.forces.iter().flat_map(|force| force.laws()) {
         conserved.momentum &= law.reciprocal;
         conserved.angular_momentum &= law.reciprocal;
-        // What some do to others, and not others to them, keeps nothing.
+        // Forces that are not equal and opposite conserve nothing.
         conserved.energy &= law.over == Over::Each || law.reciprocal;
         if matches!(law.over, Over::Links | Over::Joints | Over::Triangles) {
-            // It goes by those that are linked, and by nothing else; what resists takes energy.
+            // Only the links matter here; damping dissipates energy.
             conserved.energy &= law.over != Over::Links || !damped(&setup.state.links);
             continue;
         }
@@ -124,14 +124,14 @@ pub fn conserved(setup: &Setup) -> Result<Conserved, Error> {
         };
         conserved.energy &= !law.depends_on_velocity(&problem)?;
     }
-    // What breaks takes its energy with it.
+    // Broken springs lose their energy.
     conserved.energy &= !setup.breaks();
     // Fixed particles take momentum; prescribed motions do work as well.
     let held = &setup.state.held;
     conserved.momentum &= held.is_empty();
     conserved.angular_momentum &= held.is_empty();
     conserved.energy &= held.iter().all(|one| one.by == Hold::Fixed);
-    // What projects velocities or positions conserves neither energy nor momentum; nor do births and deaths.
+    // Projections of velocities or positions conserve neither energy nor momentum; nor do births and drains.
     let mut constrained = setup.state.has_inactive();
     for properties in setup.forces.iter().map(|force| force.properties()) {
         conserved.angular_momentum &= !properties.turns;
@@ -162,10 +162,10 @@ fn inside(setup: &Setup) -> Result<Option<Remark>, Error> {
     Ok(Some(remark.with("particle", *first as f64).with("largest_depth", deepest)))
 }
 
-/// How forces, obstacles, motions and the integrator of a setup go together, in a run that ends at a time, if it does.
+/// Remarks on the combination of forces, obstacles, motions and the integrator of a setup, in a run that ends at `end`, if given.
 ///
 /// # Errors
-/// [`Error::Scene`] when a force leads out of the plane of a flat box, or the setup makes no sense.
+/// [`Error::Scene`] when a force leads out of the plane of a flat box, or the setup is invalid.
 pub fn advice(setup: &Setup, end: Option<f64>) -> Result<Vec<Remark>, Error> {
     let mut remarks = Vec::new();
     remarks.extend(inside(setup)?);

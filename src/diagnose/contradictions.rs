@@ -1,4 +1,4 @@
-//! Where the parts of a scene of a fluid say different things.
+//! Contradictions between the parts of a scene of a fluid.
 
 use crate::error::Error;
 use crate::kernel::Machine;
@@ -50,7 +50,7 @@ fn mouths(setup: &Setup, medium: &Medium) -> Option<Remark> {
     let mut sites: Vec<(u32, usize)> =
         particles.births.iter().map(|birth| (birth.emitter, birth.id as usize)).collect();
     let place = |id: usize| particles.position()[id];
-    // Particles that follow each other out of one place are one site.
+    // Particles that leave the same point one after another are one site.
     sites.sort_by(|a, b| (a.0, place(a.1).to_array()).partial_cmp(&(b.0, place(b.1).to_array())).unwrap_or(a.cmp(b)));
     sites.dedup_by(|a, b| a.0 == b.0 && place(a.1) == place(b.1));
     let near = 0.9 * medium.spacing;

@@ -12,7 +12,7 @@ use crate::visit;
 /// A tree has 2²¹ cells along each axis of the box of all: beyond this, the middle has but a few of them.
 const FAR: f64 = 3e4;
 
-/// What the laws of `over = "auto"` choose on a machine: all pairs, or a tree.
+/// The choice of the laws with `over = "auto"` on a machine: all pairs, or a tree.
 pub fn remarks(setup: &Setup, machine: Machine) -> Result<Vec<Remark>, Error> {
     let problem = setup.problem(machine)?;
     let from = visit::crossing(&machine);
@@ -49,7 +49,7 @@ pub fn remarks(setup: &Setup, machine: Machine) -> Result<Vec<Remark>, Error> {
     Ok(all)
 }
 
-/// How much wider the box of all is than that of the middle 98 of 100, along the worst axis.
+/// The extent of all particles relative to that of the middle 98 %, each along its longest axis.
 fn spread(places: &[DVec3]) -> f64 {
     let axis = |axis: usize| {
         let mut along: Vec<f64> = places.iter().map(|x| x[axis]).collect();

@@ -11,7 +11,7 @@ use super::steps::digits;
 
 /// The part of the time in which an acceleration crosses a smoothing length that a step may have (Monaghan 1992).
 const COURANT: f64 = 0.25;
-/// What part of its density an acceleration may add to a fluid that is to vary by 1 %.
+/// The maximum part of its density that an acceleration may add to a fluid that should vary by 1 %.
 const PRESSED: f64 = 0.05;
 
 /// Whether one of these forces makes a fluid.
@@ -37,10 +37,10 @@ pub fn line(flow: &Flow, dt: f64) -> Option<String> {
     })
 }
 
-/// What is to be said of steps that are too long, and the way out; nothing where they are safe.
+/// The warning about steps that are too long, and the remedy; `None` if they are safe.
 ///
 /// # Errors
-/// [`Error::Scene`] when they are so long that nothing would be left.
+/// [`Error::Scene`] when they are so long that the fluid would be lost.
 pub fn warning(flow: &Flow, setup: &Setup) -> Result<Option<Remark>, Error> {
     if flow.excess <= 1.0 {
         return Ok(None);
@@ -75,7 +75,7 @@ fn said(flow: &Flow, remark: Remark) -> Result<Option<Remark>, Error> {
     Ok(Some(Remark { text: format!("this run may explode: {}", remark.text), ..remark }))
 }
 
-/// What the largest acceleration of a start says: whether a step is too long for it, and sound too slow to carry it.
+/// Whether the largest initial acceleration requires a shorter step, or a higher speed of sound.
 #[must_use]
 pub fn hurry(medium: &Medium, dt: f64, (particle, most): (usize, f64)) -> Option<String> {
     let length = 0.5 * medium.range();

@@ -139,7 +139,7 @@ pub fn remarks(setup: &Setup, start: &Start) -> Result<(Vec<String>, Vec<Remark>
     Ok((lines, notes))
 }
 
-/// What forces of each particle do to the fluid as a whole.
+/// The effect of forces on each particle alone on the fluid as a whole.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Weight {
     /// The acceleration at the middle of the start.

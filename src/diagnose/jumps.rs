@@ -8,7 +8,7 @@ use crate::simulation::Setup;
 /// jump moved by 0.17 of a rod in a step numbers were lost, by 0.12 they were not.
 const BEARS: f64 = 0.05;
 
-/// A remark for each motion that asks too much of rods, in a run that ends at `end`.
+/// A remark for each motion that is too fast for rods, in a run that ends at `end`.
 pub fn remarks(setup: &Setup, end: f64) -> Vec<Remark> {
     let particles = &setup.state;
     let Some(shortest) = particles.links.rods.iter().map(|rod| rod.length).reduce(f64::min) else { return Vec::new() };
@@ -18,7 +18,7 @@ pub fn remarks(setup: &Setup, end: f64) -> Vec<Remark> {
             particles.held.iter().filter(|held| held.by == Hold::Motion(u32::try_from(number).unwrap_or(u32::MAX)));
         let ends =
             led.filter(|held| tied.contains(&held.id)).filter_map(|held| particles.position().get(held.id as usize));
-        // What turns goes the faster the farther out it is.
+        // In a rotation the speed increases with the distance from the centre.
         let arm = ends.map(|x| (*x - motion.about).length()).reduce(f64::max)?;
         let (time, jump) = largest_jump(motion, arm, end)?;
         let part = jump * setup.dt / shortest;
@@ -39,7 +39,7 @@ pub fn remarks(setup: &Setup, end: f64) -> Vec<Remark> {
     particles.motions.iter().enumerate().filter_map(remark).collect()
 }
 
-/// When the velocity of a motion jumps most at this distance from its centre of turning, and by how much.
+/// The time at which the velocity of a motion jumps most at this distance from its centre of rotation, and the jump.
 fn largest_jump(motion: &Motion, arm: f64, end: f64) -> Option<(f64, f64)> {
     if motion.smooth {
         return None;

@@ -82,7 +82,7 @@ impl fmt::Display for Remark {
     }
 }
 
-/// Steps of which a run has so many where nothing is said of its length: modes that grow tenfold in these are too fast.
+/// The assumed number of steps where the length of a run is not given: modes that grow tenfold in these are unstable.
 const STEPS: u64 = 10_000;
 
 /// Validates a setup before it runs: the remarks of the command `motes check`, without those on its device.
@@ -97,21 +97,21 @@ pub async fn diagnose(setup: &Setup) -> Result<Vec<Remark>, Error> {
     Ok(remarks)
 }
 
-/// What springs and fluids of a setup say of its steps.
+/// The stability of springs and fluids of a setup.
 #[doc(hidden)]
 pub struct Judged {
     /// The stability limit by springs, if there are any.
     pub verdict: Option<Verdict>,
-    /// How its fluid starts, if there is one.
+    /// The initial state of its fluid, if there is one.
     pub start: Option<Start>,
     /// Lines about it.
     pub lines: Vec<String>,
-    /// What is to be noted of it.
+    /// The remarks.
     pub remarks: Vec<Remark>,
 }
 
 impl Judged {
-    /// Of a setup that runs for so many steps.
+    /// For a setup that runs for `steps` steps.
     ///
     /// # Errors
     /// As of [`diagnose`].
@@ -132,10 +132,10 @@ impl Judged {
     }
 }
 
-/// What a machine makes of a setup: trees or direct sums, and, in single precision, motions and softenings that are rounded.
+/// Remarks that depend on a machine: trees or direct sums, and, in single precision, the rounding of motions and softenings.
 ///
 /// # Errors
-/// When the setup makes no sense.
+/// When the setup is invalid.
 pub fn of_machine(setup: &Setup, machine: Machine, single: bool) -> Result<Vec<Remark>, Error> {
     let rounded = if single { rounding::remarks(setup) } else { Vec::new() };
     Ok(far::remarks(setup, machine)?.into_iter().chain(rounded).collect())

@@ -6,7 +6,7 @@ use crate::simulation::Setup;
 
 /// Slower particles count as being at rest \[parts of the mean speed\].
 const SLOW: f64 = 0.1;
-/// Forces within a softening are off by as much as a place is rounded \[parts of the softening\].
+/// The rounding error of positions above which forces within a softening are inaccurate \[parts of the softening\].
 const COARSE: f64 = 0.01;
 
 /// The distance from one number of single precision to the next, at this one.
@@ -16,7 +16,7 @@ fn last_place(x: f64) -> f64 {
     f64::from(f32::from_bits(single.to_bits() + 1)) - f64::from(single)
 }
 
-/// What is to be said of a setup on a device that computes in single precision.
+/// Remarks on a setup for a device that computes in single precision.
 pub fn remarks(setup: &Setup) -> Vec<Remark> {
     motions(setup).into_iter().chain(softenings(setup)).collect()
 }
@@ -91,7 +91,7 @@ fn softenings(setup: &Setup) -> Vec<Remark> {
     setup.forces.iter().flat_map(|force| force.laws()).filter_map(remark).collect()
 }
 
-/// Particles that cross a periodic box more than once in a step: their places say nothing.
+/// Particles that cross a periodic box more than once in a step: their positions are meaningless.
 pub fn crossings(setup: &Setup) -> Option<Remark> {
     let period = setup.bounds.period();
     let crossed = |id: usize| {

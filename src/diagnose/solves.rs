@@ -1,4 +1,4 @@
-//! Which laws an implicit integrator solves for.
+//! The laws that an implicit integrator solves for.
 
 use glam::DVec3;
 
@@ -10,7 +10,7 @@ use crate::integrators::implicit;
 use crate::kernel::Machine;
 use crate::simulation::Setup;
 
-/// Which laws an implicit integrator solves for, and which it takes as they are where the solve begins.
+/// The laws that an implicit integrator solves for, and those that it evaluates at the start of the solve.
 pub fn remark(setup: &Setup) -> Result<Remark, Error> {
     let integrator = setup.integrator.name();
     let (mut solved, mut limiting, mut constant) = (Vec::new(), Vec::new(), Vec::new());

@@ -47,7 +47,7 @@ pub fn digits(x: f64) -> String {
     }
 }
 
-/// What is wrong with the steps of a setup, and the way out; nothing where they are safe.
+/// The warning about unstable steps of a setup, and the remedy; `None` if they are stable.
 #[must_use]
 pub fn unsafe_steps(verdict: &Verdict, setup: &Setup) -> Option<Remark> {
     let sure = if setup.dt > verdict.lost { "will explode" } else { "may explode" };

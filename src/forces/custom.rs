@@ -13,7 +13,7 @@ use crate::visit::PairTable;
 pub struct Custom {
     /// Its name in the plan.
     pub name: String,
-    /// Which pairs are evaluated.
+    /// The visit: which pairs are evaluated.
     pub over: Over,
     /// The text of the file; see [`Law::wgsl`] for the functions it must have.
     pub wgsl: String,

@@ -1,4 +1,4 @@
-//! Animated PNG, out of pictures that are PNG files.
+//! Animated PNG, from pictures that are PNG files.
 
 use std::fs::File;
 use std::io::{self, BufReader, Write};
@@ -7,12 +7,12 @@ use std::path::{Path, PathBuf};
 use super::atomically;
 use crate::error::Error;
 
-/// Writes a film of pictures of one size, of three bytes for each pixel, that repeats forever. Each picture is shown for
-/// 1 / `rate` s. Of a picture only the pixels that differ from the one before are kept, so that a sky that stays costs
-/// nothing. Two pictures are held at a time.
+/// Writes a film of pictures of one size, of three bytes per pixel, that repeats forever. Each picture is shown for 1 / `rate` s. Only the
+/// pixels of a picture that differ from the previous one are stored, so that a constant background costs nothing. Two pictures are in
+/// memory at a time.
 ///
 /// # Errors
-/// [`Error::Output`], with the file that cannot be read or written; the film is there whole or not at all.
+/// [`Error::Output`], with the file that cannot be read or written; the film is written completely or not at all.
 pub fn write_apng(path: &Path, frames: &[PathBuf], rate: u16) -> Result<(), Error> {
     let mut unread = None;
     let written = atomically(path, |out| {
@@ -28,7 +28,7 @@ pub fn write_apng(path: &Path, frames: &[PathBuf], rate: u16) -> Result<(), Erro
     }
 }
 
-/// What went wrong, and with which frame, if it was one.
+/// An error, and its frame, if it belongs to one.
 struct Fault {
     error: io::Error,
     frame: Option<PathBuf>,
@@ -62,7 +62,7 @@ fn film(out: impl Write, frames: &[PathBuf], rate: u16) -> Result<(), Fault> {
             return Err(Fault { error: io::Error::other(text), frame: Some(file.clone()) });
         }
         let pixels = last.rgb.chunks_exact(3).zip(next.rgb.chunks_exact(3));
-        // What is transparent leaves the pixel as it was.
+        // A transparent pixel leaves the previous one unchanged.
         let changes = pixels.flat_map(|(old, new)| if old == new { [0; 4] } else { [new[0], new[1], new[2], 255] });
         writer.write_image_data(&changes.collect::<Vec<_>>())?;
         last = next;

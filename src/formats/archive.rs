@@ -1,4 +1,4 @@
-//! The arrays of an NPZ archive, read with distrust.
+//! The arrays of an NPZ archive, read as untrusted data.
 
 use std::io::{self, Read, Seek};
 
@@ -11,27 +11,27 @@ use super::problems::Problems;
 use super::titles::Title;
 use crate::state::KEPT;
 
-/// The best that deflate can do: 258 bytes out of 2 bits.
+/// The maximum ratio of deflate: 258 bytes from 2 bits.
 const DEFLATED: u64 = 1032;
 
 /// The arrays beside those of columns.
 const OTHERS: [&str; 3] = ["id", "time", "step"];
 
-/// An archive, and what was wrong with it so far.
+/// An archive, and its faults so far.
 pub(super) struct Arrays<R: Read + Seek> {
     archive: NpzArchive<R>,
     pub(super) problems: Problems,
 }
 
 impl<R: Read + Seek> Arrays<R> {
-    /// Opens an archive, and notes arrays that are neither of these titles nor of these names.
+    /// Opens an archive, and records arrays that have neither these titles nor these names as faults.
     pub(super) fn opened(from: R, titles: &[Title<'_>], system: &[&str]) -> io::Result<Self> {
         let mut arrays = Self { archive: NpzArchive::new(from)?, problems: Problems::default() };
         arrays.known(titles, system);
         Ok(arrays)
     }
 
-    /// Notes arrays of other names.
+    /// Records arrays of other names.
     fn known(&mut self, titles: &[Title<'_>], system: &[&str]) {
         let mut names: Vec<&str> = self.archive.array_names().collect();
         names.sort_unstable(); // an archive lists them in the order of a hash
@@ -54,7 +54,7 @@ impl<R: Read + Seek> Arrays<R> {
         names
     }
 
-    /// The numbers of an array, if it is there and in order.
+    /// The numbers of an array, if it exists and is valid.
     pub(super) fn column(&mut self, name: &str) -> Option<Vec<f64>> {
         if self.archive.array_names().any(|known| known == name) {
             let read = array(&mut self.archive, name);
@@ -110,7 +110,7 @@ fn array<R: Read + Seek>(archive: &mut NpzArchive<R>, name: &str) -> Result<Vec<
         ));
     }
     let values = header.numbers(&mut file, count)?;
-    // One byte more, so that the archive compares its checksum.
+    // One more byte, so that the archive compares its checksum.
     match file.read(&mut [0]) {
         Ok(0) => Ok(values),
         Ok(_) => Err(format!("has more data after its {count} numbers")),

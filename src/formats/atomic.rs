@@ -1,4 +1,4 @@
-//! Files that are whole or not there.
+//! Files that are written completely or not at all.
 
 use std::fs::{self, File, OpenOptions};
 use std::io::{self, BufWriter, Write};
@@ -6,20 +6,20 @@ use std::path::Path;
 
 use crate::error::Error;
 
-/// Writes a file so that no reader and no crash ever sees half of it: into a temporary file in the same folder, which takes
-/// the name once it is complete and on the disk. A link is followed; what is no ordinary file (a pipe, `/dev/stdout`) is
-/// written to as it is.
+/// Writes a file so that neither a reader nor a crash ever sees it incomplete: into a temporary file in the same folder, which is renamed
+/// once it is complete and on the disk. A symbolic link is followed; a file that is not regular (a pipe, `/dev/stdout`) is written to
+/// directly.
 ///
 /// # Errors
-/// [`Error::Output`] with the path, if the folder, the disk or `write` fails; a file that was there before is then untouched.
+/// [`Error::Output`] with the path, if the folder, the disk or `write` fails; an existing file is then unchanged.
 pub fn atomically(path: &Path, write: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>) -> Result<(), Error> {
     replaced(path, write, |_| Ok(())).map_err(|error| failed(path, &error))
 }
 
-/// The same, and the new file takes the name only if `check`, which gets the path of the temporary file, finds no fault with it.
+/// The same, but the new file is renamed only if `check`, which gets the path of the temporary file, returns no error.
 ///
 /// # Errors
-/// [`Error::Output`] as before, and what `check` says; when the path is that of a pipe or a device, which cannot be read back.
+/// [`Error::Output`] as before, and errors of `check`; when the path is that of a pipe or a device, which cannot be read back.
 pub(super) fn verified<T>(
     path: &Path,
     write: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>,
@@ -71,7 +71,7 @@ fn replaced(
     #[cfg(unix)]
     {
         use std::os::unix::fs::PermissionsExt;
-        // As for any new file: the user's umask takes its share. (A temporary file would be private.)
+        // As for any new file, subject to the user's umask. (A temporary file would be private.)
         builder.permissions(fs::Permissions::from_mode(0o666));
     }
     let (file, temporary) = builder.tempfile_in(folder)?.into_parts();
@@ -81,7 +81,7 @@ fn replaced(
     settle(folder)
 }
 
-/// Puts the names in a folder on the disk: a file that has been renamed is there under its new name only then.
+/// Flushes a folder to the disk: only then is the renaming of a file durable.
 #[cfg(unix)]
 fn settle(folder: &Path) -> io::Result<()> {
     match File::open(folder)?.sync_all() {
@@ -91,7 +91,7 @@ fn settle(folder: &Path) -> io::Result<()> {
     }
 }
 
-/// Elsewhere a folder cannot be opened as a file.
+/// On other systems a folder cannot be opened as a file.
 #[cfg(not(unix))]
 fn settle(_: &Path) -> io::Result<()> {
     Ok(())

@@ -31,11 +31,11 @@ impl Type {
             Self::I64 | Self::U64 | Self::F64 => 8,
         }
     }
-    /// Whether it is of integers that are not below 0.
+    /// Whether its numbers are integers that are not negative.
     pub fn is_whole(self) -> bool {
         matches!(self, Self::U8 | Self::U16 | Self::U32 | Self::U64)
     }
-    /// The number at the beginning of some bytes, of which there must be enough; whole ones above 2⁵³ are rounded.
+    /// The number at the start of some bytes, which must be long enough; integers above 2⁵³ are rounded.
     pub fn number(self, bytes: &[u8], big: bool) -> f64 {
         macro_rules! of {
             ($type:ty) => {{
@@ -63,7 +63,7 @@ fn word<const N: usize>(bytes: &[u8]) -> [u8; N] {
     bytes.get(..N).and_then(|part| part.try_into().ok()).unwrap_or([0; N])
 }
 
-/// All bytes of a file: as many as it has, not as many as it promises.
+/// All bytes of a file: as many as are read, not as many as its metadata states.
 pub(super) fn bytes_of(path: &Path) -> Result<Vec<u8>, Error> {
     let (mut file, _) = open(path)?;
     let mut bytes = Vec::new();

@@ -16,7 +16,7 @@ pub(super) const ZLIB: &str = "vtkZLibDataCompressor";
 const BLOCK: usize = 1 << 20;
 /// The effort of deflate, from 1 to 9.
 const EFFORT: u32 = 4;
-/// The best that deflate can do: 258 bytes out of 2 bits.
+/// The maximum ratio of deflate: 258 bytes from 2 bits.
 const DEFLATED: usize = 1032;
 
 /// Compresses the bytes of an array; counts have 64 bits.
@@ -33,7 +33,7 @@ pub(super) fn packed(bytes: &[u8]) -> io::Result<Vec<u8>> {
     Ok(counts.into_iter().flat_map(u64::to_le_bytes).chain(blocks).collect())
 }
 
-/// How a file says its counts, and whether all is in base 64: counts and blocks each for themselves.
+/// The type of a file's counts, and whether the data is in base 64: counts and blocks are then encoded separately.
 #[derive(Clone, Copy)]
 pub(super) struct Coding {
     pub counts: Type,
@@ -42,7 +42,7 @@ pub(super) struct Coding {
 }
 
 impl Coding {
-    /// So many bytes of a part, decoded, and what follows the part.
+    /// `bytes` bytes of a part, decoded, and the text after the part.
     fn take(self, from: &[u8], bytes: usize) -> Option<(Vec<u8>, &[u8])> {
         if !self.encoded {
             return Some((from.get(..bytes)?.to_vec(), &from[bytes..]));
@@ -51,10 +51,10 @@ impl Coding {
         let part = base64(from.get(..letters)?)?;
         Some((part.get(..bytes)?.to_vec(), &from[letters..]))
     }
-    /// The array of so many bytes at the beginning of these.
+    /// The array of `needed` bytes at the start of some bytes.
     ///
     /// # Errors
-    /// Counts that do not fit the array or what is there; a block that is damaged.
+    /// Counts that do not agree with the array or the available bytes; a damaged block.
     pub fn unpacked(self, from: &[u8], needed: usize) -> Result<Vec<u8>, String> {
         let from = if self.encoded { from.trim_ascii_start() } else { from };
         let width = self.counts.width();
@@ -88,7 +88,7 @@ impl Coding {
             let behind = rest.split_off(*size as usize);
             let wanted = if number + 1 == sizes.len() { needed as u64 - out.len() as u64 } else { full };
             let before = out.len() as u64;
-            // One byte more, so that a longer block is seen.
+            // One more byte, so that a longer block is detected.
             let read = ZlibDecoder::new(&rest[..]).take(wanted.saturating_add(1)).read_to_end(&mut out);
             read.map_err(|why| format!("has a damaged block {number} ({why})"))?;
             let there = out.len() as u64 - before;

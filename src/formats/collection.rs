@@ -10,10 +10,10 @@ use crate::state::State;
 pub struct Collection(Vec<(u64, String)>);
 
 impl Collection {
-    /// What a run calls it.
+    /// Its name in the folder of a run.
     pub const NAME: &str = "snapshots.pvd";
 
-    /// What such a file lists before this step: a run that continues writes those from there on anew.
+    /// The entries of such a file before this step: a run that continues rewrites the later ones.
     #[must_use]
     pub fn before(file: &Path, step: u64) -> Self {
         let text = std::fs::read_to_string(file).unwrap_or_default();

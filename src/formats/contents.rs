@@ -9,16 +9,16 @@ use crate::kernel::{Bounds, Column, Columns, Kind};
 
 use super::titles;
 
-/// What a file holds, without its numbers.
+/// The contents of a file, without its numbers.
 #[derive(Debug, Clone, Default)]
 pub struct Contents {
-    /// Particles, where the header says it.
+    /// The number of particles, if the header gives it.
     pub rows: usize,
     /// Its lists of numbers, one for each component of a column.
     pub headings: Vec<Heading>,
     /// The box, if it has one.
     pub bounds: Option<Bounds>,
-    /// What readers pass over, in words: `97026 edges`.
+    /// Data that readers skip, in words: `97026 edges`.
     pub left_out: Vec<String>,
 }
 
@@ -27,11 +27,11 @@ pub struct Contents {
 pub struct Heading {
     /// Its title: `x`, `mass`, `spin_x`.
     pub title: String,
-    /// Whether its numbers are whole, and none is below 0.
+    /// Whether its numbers are integers, and none is negative.
     pub whole: bool,
 }
 
-/// What a file holds, without its numbers.
+/// The contents of a file, without its numbers.
 ///
 /// # Errors
 /// [`Error::Input`] as for [`read`](super::read).
@@ -42,7 +42,7 @@ pub fn contents(path: &Path) -> Result<Contents, Error> {
     }
 }
 
-/// So many things of a kind.
+/// A count with its noun, in the plural where necessary.
 pub(super) fn counted(count: u64, what: &str) -> String {
     if count == 1 { format!("1 {what}") } else { format!("{count} {what}s") }
 }
@@ -50,8 +50,8 @@ pub(super) fn counted(count: u64, what: &str) -> String {
 /// More columns than this are left out, as a file of another kind may seem to have them.
 const MOST: usize = 1000;
 
-/// The columns of all simulations, and those of which a file has lists: `spin_x`, `spin_y` and `spin_z` are one of vectors. Titles that
-/// no column can have are left out.
+/// The columns of all simulations, and those for which a file has lists: `spin_x`, `spin_y` and `spin_z` form one column of vectors. Titles
+/// that are no valid column names are left out.
 #[must_use]
 pub fn known(contents: &Contents) -> Columns {
     let usual = Columns::default();

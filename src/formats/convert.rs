@@ -1,4 +1,4 @@
-//! From one format into another, and what is lost on the way.
+//! Conversion from one format into another, and the data lost by it.
 
 use std::path::Path;
 
@@ -7,27 +7,27 @@ use crate::error::Error;
 use crate::kernel::Array;
 use crate::state::State;
 
-/// What came of a conversion.
+/// The result of a conversion.
 #[derive(Debug)]
 pub struct Converted {
     /// The format of the file that was read.
     pub from: &'static Format,
-    /// That of the file that was written.
+    /// The format of the file that was written.
     pub to: &'static Format,
-    /// Particles.
+    /// The number of particles.
     pub count: usize,
-    /// Of the numbers that were written.
+    /// The precision of the numbers written.
     pub precision: Precision,
-    /// What the new file does not hold of the old one, found by reading it back.
+    /// The data of the old file that the new one does not hold, found by reading it back.
     pub lost: Vec<String>,
 }
 
-/// Reads a file with all of its columns, and writes it in the format of the other's ending. Without a precision, numbers are written
-/// in single precision where none of them loses a bit by that.
+/// Reads a file with all of its columns, and writes it in the format of the other's extension. Without a given precision, numbers are
+/// written in single precision if none of them loses a bit.
 ///
 /// # Errors
-/// [`Error::Input`] when the file cannot be read, [`Error::Output`] when the other's ending says no format that states can be written
-/// in, it is the file that is read, it cannot be written, or it cannot be read back: what was there before is then untouched.
+/// [`Error::Input`] when the file cannot be read, [`Error::Output`] when the other's extension is that of no format that can be written,
+/// when it is the file that is read, or when it cannot be written or read back: an existing file is then unchanged.
 pub fn convert(from: &Path, to: &Path, precision: Option<Precision>) -> Result<Converted, Error> {
     let refuse = |message: String| Error::Output { file: to.to_owned(), message };
     let format = by_ending(to).ok_or_else(|| {
@@ -77,7 +77,7 @@ pub fn convert(from: &Path, to: &Path, precision: Option<Precision>) -> Result<C
     Ok(Converted { from: source, to: format, count: state.len(), precision, lost })
 }
 
-/// What an error says of a file, without the name of the file.
+/// The message of an error, without the name of the file.
 fn reported(error: &Error) -> String {
     if let Error::Input { message, .. } = error { message.clone() } else { error.to_string() }
 }
@@ -86,7 +86,7 @@ fn writable() -> impl Iterator<Item = &'static Format> {
     super::FORMATS.iter().filter(|format| format.write.is_some())
 }
 
-/// Whether all numbers are those of single precision.
+/// Whether all numbers are exact in single precision.
 fn is_single(state: &State) -> bool {
     #[expect(clippy::cast_possible_truncation, reason = "this is the question")]
     let fits = |x: &f64| f64::from(*x as f32).to_bits() == x.to_bits();
@@ -98,7 +98,7 @@ fn is_single(state: &State) -> bool {
     })
 }
 
-/// What one state has and the other has not.
+/// The data that one state has and the other does not.
 fn lost(state: &State, back: &State) -> Vec<String> {
     let mut lost = Vec::new();
     if back.time.to_bits() != state.time.to_bits() {

@@ -21,7 +21,7 @@ use crate::error::Error;
 use crate::kernel::{Columns, Kind};
 use crate::state::State;
 
-/// Its line in the register: what no other format claims is text.
+/// Its entry in the register: files of no other format are read as text.
 pub(super) const FORMAT: Format = Format {
     name: "csv",
     about: "text, one row for each particle, between commas or blanks",
@@ -35,7 +35,7 @@ pub(super) const FORMAT: Format = Format {
     divides: false,
 };
 
-/// What else a mass is called.
+/// The short title of the mass.
 const SHORT: &str = "m";
 const ID: &str = "id";
 const NAME: &str = "name";
@@ -108,7 +108,7 @@ fn contents(path: &Path) -> Result<Contents, Error> {
     Ok(Contents { headings: (0..names.len()).map(heading).collect(), ..Contents::default() })
 }
 
-/// What to say of a table whose first row is numbers.
+/// The message for a table whose first row is numbers.
 fn unnamed(record: &ByteRecord) -> String {
     if record.len() == 1 {
         return "begins with a line of one number, as an XYZ file does: rename it to .xyz, or make it a table whose first line \
@@ -122,10 +122,10 @@ fn unnamed(record: &ByteRecord) -> String {
     )
 }
 
-/// Where each title is.
+/// The position of each title.
 struct Header {
     width: usize,
-    /// In the order of the titles that may be there.
+    /// In the order of the possible titles.
     places: Vec<Option<usize>>,
     id: Option<usize>,
 }
@@ -192,13 +192,13 @@ fn cell(record: &ByteRecord, place: usize) -> Option<&str> {
     record.get(place).and_then(|bytes| std::str::from_utf8(bytes).ok())
 }
 
-/// A cell for a message: no longer than a message may be.
+/// A cell for a message, shortened if necessary.
 fn shown(record: &ByteRecord, place: usize) -> String {
     let text = String::from_utf8_lossy(record.get(place).unwrap_or_default());
     text.chars().take(40).collect()
 }
 
-/// What to say about a name that is neither one of the titles nor of `others`.
+/// The message for a name that is neither one of the titles nor of `others`.
 pub(super) fn unknown(what: &str, title: &str, titles: &[Title<'_>], others: &[&'static str]) -> String {
     if title == "radius" {
         return format!("unknown {what} `radius`: the radius that is drawn is called `size`");
@@ -217,11 +217,11 @@ pub(super) fn unknown(what: &str, title: &str, titles: &[Title<'_>], others: &[&
 }
 
 /// Writes a header and one row per particle, in the order of the ids: `id,x,y,z,vx,vy,vz,mass`, `size` and `species` where any is not 0,
-/// `life` where any is not active, and every other column that the state has. Each number is the shortest decimal that reads back to
-/// the same bits of the precision, also where it is read as f64 first.
+/// `life` where any is not active, and every other column of the state. Each number is the shortest decimal that reads back to the same
+/// bits of the precision, even if it is read as f64 first.
 ///
 /// # Errors
-/// Those of `out`; a number that does not fit single precision, where that is asked for.
+/// Those of `out`; a number that does not fit single precision, if that is requested.
 pub fn write_csv(mut out: impl Write, state: &State, precision: Precision) -> io::Result<()> {
     /// Rows per piece of work, and pieces that are in memory at once: about 16 MB of text.
     const ROWS: usize = 4096;

@@ -12,7 +12,7 @@ use crate::error::Error;
 use crate::kernel::{Bounds, Columns, Side};
 use crate::state::State;
 
-/// Its line in the register.
+/// Its entry in the register.
 pub(super) const FORMAT: Format = Format {
     name: "gadget",
     about: "GADGET-2, its binary formats 1 and 2",
@@ -41,7 +41,7 @@ const BLOCKS: [(&str, &str, usize); 9] = [
     ("ACCE", "acceleration", 3),
 ];
 
-/// How the words of a file stand.
+/// The byte order and the layout of a file.
 #[derive(Clone, Copy)]
 struct Order {
     big: bool,
@@ -49,23 +49,23 @@ struct Order {
     named: bool,
 }
 
-/// By the length of the first record.
+/// Determined from the length of the first record.
 fn order(start: &[u8]) -> Option<Order> {
     let named = |word: [u8; 4], big| (start.starts_with(&word) && start.get(4..8) == Some(b"HEAD")).then_some(Order { big, named: true });
     let plain = |word: [u8; 4], big| start.starts_with(&word).then_some(Order { big, named: false });
     named([8, 0, 0, 0], false).or(named([0, 0, 0, 8], true)).or(plain([0, 1, 0, 0], false)).or(plain([0, 0, 1, 0], true))
 }
 
-/// Reads a state of these columns. Blocks for which there is no column are passed over.
+/// Reads a state of these columns. Blocks without a column are skipped.
 ///
 /// # Errors
-/// [`Error::Input`] with the byte of a record that is cut or has another length than its particles, of a number that is impossible; a
-/// file that is a part of a set.
+/// [`Error::Input`] with the byte of a record that is truncated or has a length other than that of its particles, or of an invalid number;
+/// a file that is a part of a set.
 pub fn read(path: &Path, columns: &Columns) -> Result<State, Error> {
     sheet::read(path, columns, sheet)
 }
 
-/// A record: where its bytes are.
+/// A record: the position of its bytes.
 struct Record {
     first: usize,
     length: usize,
@@ -163,7 +163,7 @@ fn parsed(bytes: &[u8], wanted: &dyn Fn(&str) -> bool) -> Result<Sheet, String> 
             (length, _, Some(eight), false) if length == eight => Type::F64,
             (length, Some(four), _, true) if length == four => Type::U32,
             (length, _, Some(eight), true) if length == eight => Type::U64,
-            // What else follows in format 1 depends on the code that wrote it.
+            // In format 1 the later blocks depend on the code that wrote the file.
             _ if name.is_none() && place > 3 => continue,
             (length, ..) => {
                 return Err(format!(

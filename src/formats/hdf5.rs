@@ -21,7 +21,7 @@ use crate::error::Error;
 use crate::kernel::{Bounds, Columns, Side};
 use crate::state::State;
 
-/// Its line in the register.
+/// Its entry in the register.
 pub(super) const FORMAT: Format = Format {
     name: "hdf5",
     about: "HDF5 in the layout of GADGET-4, for yt, pynbody and h5py: a group for each species",
@@ -37,7 +37,7 @@ pub(super) const FORMAT: Format = Format {
 
 /// Types of particles in a file.
 const TYPES: usize = 6;
-/// What GADGET calls columns.
+/// The names of columns in GADGET.
 const NAMES: [(&str, &str); 9] = [
     ("position", "Coordinates"),
     ("velocity", "Velocities"),
@@ -49,7 +49,7 @@ const NAMES: [(&str, &str); 9] = [
     ("internal_energy", "InternalEnergy"),
     ("smoothing_length", "SmoothingLength"),
 ];
-/// What SWIFT calls some of them (Schaller et al. 2024).
+/// Different names in SWIFT (Schaller et al. 2024).
 const PLURALS: [(&str, &str); 5] = [
     ("density", "Densities"),
     ("potential", "Potentials"),
@@ -57,10 +57,10 @@ const PLURALS: [(&str, &str); 5] = [
     ("internal_energy", "InternalEnergies"),
     ("smoothing_length", "SmoothingLengths"),
 ];
-/// The attribute of a group that says of which species all of it is.
+/// The attribute of a group that gives the species of all of its particles.
 const SPECIES: &str = "Species";
 
-/// Writes a state, or the part of it that `options` name.
+/// Writes a state, or the part of it that `options` give.
 ///
 /// # Errors
 /// Those of `out`; a number that does not fit single precision, where that is asked for; a column that has the name of another in GADGET.
@@ -90,7 +90,7 @@ pub fn write_hdf5(out: impl Write, state: &State, options: &Options) -> io::Resu
     header.set_attr("MassTable", AttrValue::F64Array(vec![0.0; TYPES]));
     header.set_attr("NumFilesPerSnapshot", AttrValue::I32(i32::try_from(options.part.of).unwrap_or(i32::MAX)));
     header.set_attr("Time", AttrValue::F64(state.time));
-    // Without a cosmology: where there is one of them, yt wants all, and pynbody takes the file for comoving.
+    // Without cosmological parameters: if there is one of them, yt requires all, and pynbody treats the file as comoving.
     header.set_attr("Redshift", AttrValue::F64(0.0));
     let side = options.closed().map_or(0.0, |bounds| (bounds.high - bounds.low).max_element());
     header.set_attr("BoxSize", AttrValue::F64(side));
@@ -132,12 +132,12 @@ pub fn write_hdf5(out: impl Write, state: &State, options: &Options) -> io::Resu
     file.finish_to(out).map_err(|why| io::Error::other(why.to_string()))
 }
 
-/// Rows of a chunk that is compressed by itself.
+/// Rows of a chunk, which is compressed separately.
 const CHUNK: u64 = 1 << 16;
 /// The effort of deflate, from 1 to 9: more takes longer, and numbers of particles hardly shrink further.
 const EFFORT: u32 = 4;
 
-/// Gives a dataset its shape, and the filters that all readers of HDF5 have: bytes of numbers are sorted by significance, then deflated.
+/// Sets the shape of a dataset, and the filters that all readers of HDF5 support: byte shuffle, then deflate.
 fn shaped(dataset: &mut DatasetBuilder, shape: &[u64], options: &Options) {
     dataset.with_shape(shape);
     if options.compress {
@@ -165,11 +165,11 @@ fn whole(field: &Field<'_>, rows: &[usize]) -> Vec<u32> {
     rows.iter().flat_map(|row| field.strips.iter().map(|strip| number(strip.of(*row)))).collect()
 }
 
-/// Reads a state of these columns. Datasets for which there is no column are passed over.
+/// Reads a state of these columns. Datasets without a column are skipped.
 ///
 /// # Errors
-/// [`Error::Input`] with what is no HDF5, cut, missing, of another length than `Coordinates`, no number, or impossible; a part of a set
-/// that is not there.
+/// [`Error::Input`] with the part that is not HDF5, truncated, missing, of a length other than that of `Coordinates`, not numeric, or
+/// invalid; a missing part of a set.
 pub fn read(path: &Path, columns: &Columns) -> Result<State, Error> {
     sheet::read(path, columns, sheet)
 }
@@ -181,13 +181,13 @@ struct Gathered {
     lists: BTreeMap<String, (bool, Vec<f64>)>,
     /// Attributes of the header of the first file.
     header: HashMap<String, AttrValue>,
-    /// Datasets that are passed over.
+    /// Datasets that are skipped.
     left_out: Vec<String>,
     /// Time and step of the last file, as bits.
     moment: Vec<u64>,
     /// Particles of each type in all files.
     types: [u64; TYPES],
-    /// Whether a group has masses, and the first one that has none.
+    /// Whether a group has masses, and the first group without them.
     massive: bool,
     massless: Option<String>,
 }
@@ -239,7 +239,7 @@ fn sheet(path: &Path, wanted: &dyn Fn(&str) -> bool) -> Result<Sheet, Error> {
     Ok(sheet)
 }
 
-/// Refuses a part that a link leads out of the folder of the file that was named: only that one was allowed to be read.
+/// Refuses a part outside the folder of the file that was named, such as through a link: only that folder may be read.
 fn beside(named: &Path, part: &Path) -> Result<(), Error> {
     let real = |path: &Path| std::fs::canonicalize(path).map_err(|why| input(path, why.to_string()));
     let (named, real) = (real(named)?, real(part)?);
@@ -249,7 +249,7 @@ fn beside(named: &Path, part: &Path) -> Result<(), Error> {
     Err(input(part, "is a part of a set, and a link leads outside of the set's folder: put all parts into one folder"))
 }
 
-/// What stands before and behind the number of a part: `snapshot_007`, `hdf5`.
+/// The text before and after the number of a part: `snapshot_007`, `hdf5`.
 fn split(path: &Path) -> Option<(String, String)> {
     let (stem, ending) = path.to_str()?.rsplit_once('.')?;
     let (before, number) = stem.rsplit_once('.')?;
@@ -258,7 +258,7 @@ fn split(path: &Path) -> Option<(String, String)> {
 }
 
 impl Gathered {
-    /// Compares the particles of all files of a set with the totals in the header, where it has them.
+    /// Compares the number of particles in all files of a set with the totals in the header, if it has them.
     fn complete(&self) -> Result<(), String> {
         let words = |name: &str| self.header.get(name).map(numbers).unwrap_or_default();
         let (low, high) = (words("NumPart_Total"), words("NumPart_Total_HighWord"));
@@ -273,13 +273,13 @@ impl Gathered {
         }
         Ok(())
     }
-    /// Adds the groups of a file; gives how many files the set has.
+    /// Adds the groups of a file; returns the number of files in the set.
     fn file(&mut self, path: &Path, wanted: &dyn Fn(&str) -> bool) -> Result<u32, Error> {
         let (_, length) = super::open(path)?;
         let refuse = |why: hdf5_pure::Error| input(path, format!("cannot be read as HDF5: {why}"));
         let file = File::open(path).map_err(refuse)?;
         let root = file.root();
-        // By their names: a list of all fails at soft links, which SWIFT writes.
+        // By name: listing all groups fails at soft links, which SWIFT writes.
         let group = |name: &str| match root.group(name) {
             Ok(group) => Ok(Some(group)),
             Err(hdf5_pure::Error::Format(FormatError::PathNotFound(_))) => Ok(None),
@@ -334,7 +334,7 @@ impl Gathered {
         for own in &datasets {
             let dataset = group.dataset(own).map_err(refuse)?;
             let lists = lists(&dataset, column_of(own), rows, length, wanted).map_err(|why| format!("{own}: {why}"))?;
-            // Not of numbers, of another shape, or of a column that another dataset is of: `Density` beside `Densities`.
+            // Not numeric, of another shape, or for a column that another dataset has given: `Density` beside `Densities`.
             let again = lists.iter().any(|(title, ..)| found.iter().any(|(known, ..)| known == title));
             if lists.is_empty() || again {
                 self.left_out.push(format!("{name}/{own}"));
@@ -346,7 +346,7 @@ impl Gathered {
         if !has("x", &found) {
             return Err(format!("{name}: Coordinates does not hold three numbers for each particle"));
         }
-        // Without any, masses are those of other formats.
+        // If there are none, masses have the default of other formats.
         if !has("mass", &found) && mass != 0.0 {
             found.push(("mass".to_owned(), false, if wanted("mass") { vec![mass; rows] } else { Vec::new() }));
         }
@@ -378,7 +378,7 @@ impl Gathered {
     }
 }
 
-/// The numbers of a dataset, a list for each component; without numbers where they are not wanted.
+/// The numbers of a dataset, a list for each component; without numbers if they are not wanted.
 fn lists(
     dataset: &Dataset,
     column: &str,
@@ -421,18 +421,18 @@ fn lists(
     Ok(titles.into_iter().enumerate().map(|(k, title)| (title, whole, list(k))).collect())
 }
 
-/// Whether a column is one of GADGET's, or one that is asked for.
+/// Whether a column is one of GADGET's, or a requested one.
 fn is_known(column: &str, wanted: &dyn Fn(&str) -> bool) -> bool {
     let usual = NAMES.iter().any(|(known, _)| *known == column);
     usual || ["", "_x", "_0", "_0_x"].iter().any(|suffix| wanted(&format!("{column}{suffix}")))
 }
 
-/// More components than this is none.
+/// The maximum number of components.
 const MOST: u64 = 4096;
-/// The best that deflate can do: 258 bytes out of 2 bits.
+/// The maximum ratio of deflate: 258 bytes from 2 bits.
 const DEFLATED: u64 = 1032;
 
-/// The bytes that a dataset can hold, by what of it is in the file.
+/// The maximum number of bytes of a dataset, given the bytes in the file.
 fn held(dataset: &Dataset, length: u64) -> Result<u64, String> {
     if !dataset.is_chunked() {
         return Ok(length);
@@ -443,7 +443,7 @@ fn held(dataset: &Dataset, length: u64) -> Result<u64, String> {
     Ok(if packed { stored.min(length).saturating_mul(DEFLATED) } else { stored.min(length) })
 }
 
-/// The numbers of an attribute; none of a text.
+/// The numbers of an attribute; empty for text.
 fn numbers(value: &AttrValue) -> Vec<f64> {
     macro_rules! cast {
         ($($one:ident $many:ident)*) => {

@@ -7,8 +7,8 @@ use std::path::Path;
 
 use ::csv::ByteRecord;
 
-/// Where a row begins. Its number is only counted when it is shown: `csv` knows where it stopped before, but not how many
-/// blank lines and comments it has skipped since.
+/// The position of a row. Its line number is only counted when it is shown: `csv` provides the end of the previous row, but not the number
+/// of blank lines and comments skipped since.
 #[derive(Clone, Copy)]
 pub(super) struct Line<'a> {
     path: &'a Path,

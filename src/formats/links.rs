@@ -27,10 +27,10 @@ pub enum Tie {
     Rod,
 }
 
-/// What a link is where its row does not say.
+/// The defaults for links whose rows do not give a value.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Usual {
-    /// What it is.
+    /// The kind of the link.
     pub tie: Tie,
     /// Its rest length, as a part of the distance of its ends.
     pub rest: f64,
@@ -41,10 +41,10 @@ pub struct Usual {
 }
 
 impl Tie {
-    /// The words.
+    /// The names of the kinds.
     pub const NAMES: &'static [&'static str] = &["spring", "rope", "rod"];
 
-    /// The one of a word.
+    /// The kind of a name.
     #[must_use]
     pub fn from_name(name: &str) -> Option<Self> {
         let place = Self::NAMES.iter().position(|known| *known == name)?;
@@ -53,7 +53,7 @@ impl Tie {
 }
 
 impl Usual {
-    /// Adds a link between two particles, with what is known of it.
+    /// Adds a link between two particles, with the given rest length if there is one.
     pub fn tie(&self, links: &mut Links, ends: [u32; 2], distance: f64, rest: Option<f64>) {
         let rest = rest.unwrap_or(self.rest * distance);
         let (stiffness, damping) = (self.stiffness, self.damping);
@@ -66,12 +66,11 @@ impl Usual {
 
 const COLUMNS: [&str; 6] = ["a", "b", "rest", "stiffness", "damping", "tie"];
 
-/// Reads links between particles that are at these places, in this box: in a periodic one a link is as long as the shortest
-/// way.
+/// Reads links between particles at these positions, in this box: in a periodic box the length of a link is the minimum-image distance.
 ///
 /// # Errors
-/// [`Error::Input`] that lists, with its line, everything that is wrong: unknown columns, cells that are no numbers or
-/// negative, ids of no particle, links of a particle with itself, and links that are there already.
+/// [`Error::Input`] that lists all faults with their lines: unknown columns, cells that are not numbers or are negative, unknown ids, links
+/// of a particle with itself, and duplicate links.
 pub fn read(path: &Path, positions: &[DVec3], bounds: &Bounds, usual: &Usual) -> Result<Links, Error> {
     let (file, _) = open(path)?;
     let mut rows =

@@ -1,7 +1,7 @@
-//! Particles from and to files, reader and writer of a format together; and pictures joined to films.
+//! Particles in files, with the reader and the writer of a format together; and films of pictures.
 //!
-//! Readers check every count against the size of the file before they reserve memory for it, and report all that is wrong
-//! with a file at once. Writers go through [`atomically`], so that a file is either whole or not there.
+//! Readers check every count against the size of the file before they allocate memory for it, and report all faults of a file at once.
+//! Writers use [`atomically`], so that a file is written completely or not at all.
 
 #[cfg(feature = "images")]
 pub mod apng;
@@ -33,26 +33,26 @@ use crate::error::Error;
 use crate::kernel::{Bounds, Columns};
 use crate::state::State;
 
-/// How many digits, or bytes, a number gets in a file.
+/// The precision of numbers in a file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Precision {
-    /// As an f32: what reads back to the same 32 bits. For state that is f32 anyway, as on the GPU.
+    /// As an f32: reads back to the same 32 bits. For states that are f32 anyway, as on the GPU.
     #[default]
     Single,
-    /// As an f64: what reads back to the same 64 bits.
+    /// As an f64: reads back to the same 64 bits.
     Double,
 }
 
-/// How a state is written, and what else a file says.
+/// The options of a writer, and further data of a file.
 #[derive(Debug, Clone, Default)]
 pub struct Options {
-    /// The digits, or bytes, of numbers.
+    /// The precision of numbers.
     pub precision: Precision,
     /// The box, if there is one.
     pub bounds: Option<Bounds>,
-    /// Whether numbers are compressed without loss, in formats that can be.
+    /// Whether numbers are compressed without loss, in formats that support it.
     pub compress: bool,
-    /// Which of the files of a set is written, in formats that are divided.
+    /// The file of a set to be written, in formats that can be divided.
     pub part: Part,
 }
 
@@ -61,7 +61,7 @@ pub struct Options {
 pub struct Part {
     /// Its number, counted from 0.
     pub number: u32,
-    /// How many files there are; at least one.
+    /// The number of files; at least one.
     pub of: u32,
 }
 
@@ -72,14 +72,14 @@ impl Default for Part {
 }
 
 impl Part {
-    /// The particles of this part, by their places: all parts have as many, but for one more or less.
+    /// The particles of this part, by index: all parts have the same number, give or take one.
     #[must_use]
     pub fn places(&self, particles: usize) -> std::ops::Range<usize> {
         let (of, number) = (u64::from(self.of.max(1)), u64::from(self.number));
         let from = |number: u64| (u128::from(number.min(of)) * particles as u128 / u128::from(of)) as usize;
         from(number)..from(number + 1)
     }
-    /// The name of its file, out of what stands before the extension: `snapshot_10.3.hdf5`, or `snapshot_10.hdf5` where there is one.
+    /// The name of its file, from the stem: `snapshot_10.3.hdf5`, or `snapshot_10.hdf5` if there is only one part.
     #[must_use]
     pub fn name(&self, stem: &str, format: &Format) -> String {
         if self.of > 1 { format!("{stem}.{}.{}", self.number, format.name) } else { format!("{stem}.{}", format.name) }
@@ -87,30 +87,30 @@ impl Part {
 }
 
 impl Options {
-    /// Its corners, where it has sides along every axis.
+    /// The box, if it is closed along every axis.
     pub(crate) fn closed(&self) -> Option<&Bounds> {
         self.bounds.as_ref().filter(|bounds| !bounds.sides.contains(&crate::kernel::Side::Open))
     }
 }
 
-/// A format of files that hold a state. Its reader and its writer stand in one file.
+/// A format of files that hold a state. Its reader and its writer are in one module.
 #[derive(Debug)]
 pub struct Format {
-    /// The word of scenes, and the ending of files that are written.
+    /// Its name in scenes, and the extension of files that are written.
     pub name: &'static str,
     /// One line for a list.
     pub about: &'static str,
-    /// Endings by which files of it are known, in small letters.
+    /// The extensions of its files, in lower case.
     pub endings: &'static [&'static str],
-    /// Whether a file that begins with these bytes is of it, where the ending says nothing.
+    /// Whether a file that begins with these bytes has this format, if the extension does not determine it.
     pub begins: fn(&[u8]) -> bool,
-    /// What a file of it holds, without its numbers.
+    /// The contents of a file, without its numbers.
     pub contents: fn(&Path) -> Result<Contents, Error>,
-    /// Reads a state of these columns, if it can be read.
+    /// Reads a state of these columns, if the format can be read.
     pub read: Option<Reader>,
-    /// Writes a state, if states can be written in it without loss.
+    /// Writes a state, if the format can hold states without loss.
     pub write: Option<Writer>,
-    /// Columns of a state that its files do not hold, though they say more than their initial values; `None`: they hold all.
+    /// Columns of a state that its files do not hold, although their values are not the initial ones; `None`: they hold all.
     pub left_out: Option<fn(&State) -> Vec<String>>,
     /// Whether its files can be compressed.
     pub compresses: bool,
@@ -150,17 +150,17 @@ register! {
     csv
 }
 
-/// The format of a scene's word.
+/// The format of a name in scenes.
 #[must_use]
 pub fn format(name: &str) -> Option<&'static Format> {
     FORMATS.iter().find(|format| format.name == name)
 }
 
-/// Reads a state of these columns from a file of any known format: by its ending (see [`FORMATS`]), and by what it starts with where
-/// that says nothing.
+/// Reads a state of these columns from a file of any known format: by its extension (see [`FORMATS`]), or by its first bytes if the
+/// extension does not determine it.
 ///
 /// # Errors
-/// [`Error::Input`], with the file and the line or byte offset of everything that is wrong with it.
+/// [`Error::Input`], with the file and the line or byte offset of all of its faults.
 pub fn read(path: &Path, columns: &Columns) -> Result<State, Error> {
     match of(path)?.and_then(|format| format.read) {
         Some(read) => read(path, columns),
@@ -168,7 +168,7 @@ pub fn read(path: &Path, columns: &Columns) -> Result<State, Error> {
     }
 }
 
-/// The format of a file that is there: by its ending, and by what it starts with where that says nothing.
+/// The format of an existing file: by its extension, or by its first bytes if the extension does not determine it.
 ///
 /// # Errors
 /// [`Error::Input`] when the file cannot be read.
@@ -177,14 +177,14 @@ pub fn of(path: &Path) -> Result<Option<&'static Format>, Error> {
     if named.is_some() { Ok(named) } else { by_beginning(path) }
 }
 
-/// The format of files of this ending.
+/// The format of files with this extension.
 #[must_use]
 pub fn by_ending(path: &Path) -> Option<&'static Format> {
     let ending = path.extension().and_then(|e| e.to_str()).unwrap_or_default().to_ascii_lowercase();
     FORMATS.iter().find(|format| format.endings.contains(&ending.as_str()))
 }
 
-/// The format that a file begins like.
+/// The format of a file, by its first bytes.
 fn by_beginning(path: &Path) -> Result<Option<&'static Format>, Error> {
     let mut start = Vec::new();
     let (file, _) = open(path)?;
@@ -206,7 +206,7 @@ fn input(path: &Path, message: impl Into<String>) -> Error {
 /// A file, and its length in bytes.
 fn open(path: &Path) -> Result<(BufReader<File>, u64), Error> {
     let failed = |error: io::Error| input(path, error.to_string());
-    // Before it is opened: to open a pipe is to wait for its other end.
+    // Before it is opened: opening a pipe waits for its other end.
     let data = std::fs::metadata(path).map_err(failed)?;
     if data.is_dir() {
         return Err(input(path, "is a folder, not a file of particles"));

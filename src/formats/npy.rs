@@ -1,16 +1,16 @@
-//! One array in `NumPy`'s format NPY (`NumPy` Enhancement Proposal 1), versions 1 to 3, read with distrust.
+//! One array in `NumPy`'s format NPY (`NumPy` Enhancement Proposal 1), versions 1 to 3, read as untrusted data.
 //!
-//! `npyz` can read these headers too, but it reserves up to 4 GiB on the word of a header, descends without limit into nested
-//! brackets, and overflows on shapes whose product does not fit. Here a header is short, flat and checked, or an error.
+//! `npyz` can read these headers too, but it allocates up to 4 GiB as a header demands, descends without limit into nested brackets, and
+//! overflows on shapes whose product does not fit. Here a header is short, flat and checked, or an error.
 
 use std::io::Read;
 
 /// The longest header that is read; `NumPy` itself stops at 10 000 bytes.
 const LONGEST: u32 = 10_000;
-/// Bytes that are read at once; memory grows as data arrives, never on the word of a header.
+/// The number of bytes read at once; memory grows as data arrives, not as the header states.
 const PIECE: usize = 1 << 16;
 
-/// What an array holds.
+/// The header of an array.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Header {
     /// The type of its numbers.
@@ -120,7 +120,7 @@ fn fill(from: &mut impl Read, bytes: &mut [u8]) -> Result<(), String> {
     from.read_exact(bytes).map_err(|error| format!("ends within its header ({error})"))
 }
 
-/// The text behind a key of the header's dictionary, up to the end of the header.
+/// The text after a key of the header's dictionary, up to the end of the header.
 fn value<'a>(text: &'a str, key: &str) -> Result<&'a str, String> {
     let missing = || format!("has a header without `{key}`");
     let (_, rest) = ["'", "\""].iter().find_map(|q| text.split_once(&format!("{q}{key}{q}"))).ok_or_else(missing)?;

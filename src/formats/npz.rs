@@ -20,7 +20,7 @@ use crate::error::Error;
 use crate::kernel::{Array, Column, Columns, Kind, Shape};
 use crate::state::{KEPT, KEPT_NEXT, State};
 
-/// Its line in the register.
+/// Its entry in the register.
 pub(super) const FORMAT: Format = Format {
     name: "npz",
     about: "arrays for NumPy, all columns and the time",
@@ -94,7 +94,7 @@ pub fn read(path: &Path, columns: &Columns) -> Result<State, Error> {
     Ok(state)
 }
 
-/// The names of arrays, but of what a step keeps.
+/// The names of arrays, except restart data.
 fn contents(path: &Path) -> Result<Contents, Error> {
     let (file, _) = open(path)?;
     let mut archive = npyz::npz::NpzArchive::new(file).map_err(|error| input(path, error.to_string()))?;
@@ -117,10 +117,10 @@ fn contents(path: &Path) -> Result<Contents, Error> {
     Ok(contents)
 }
 
-/// What an id is, for a check.
+/// The column of ids, for a check.
 static ID: std::sync::LazyLock<Column> = std::sync::LazyLock::new(|| Column::new("id", Kind::Whole, "", ""));
 
-/// Notes an array of the wrong length, and values that it must not hold.
+/// Records an array of the wrong length, and invalid values.
 fn check<T: std::fmt::Display>(
     name: &str,
     values: Option<&[f64]>,
@@ -157,7 +157,7 @@ pub fn write_npz(out: impl Write + Seek, state: &State, precision: Precision) ->
     write_beside(out, state, precision, false, &[])
 }
 
-/// The same with more entries behind the arrays, by their names; deflated, if that is asked for.
+/// The same with more entries after the arrays, by name; deflated, if that is requested.
 ///
 /// # Errors
 /// Those of `out`; a number that does not fit single precision, where that is asked for.
@@ -203,7 +203,7 @@ pub(crate) fn write_beside(
     archive.to.zip_writer().finish().map(drop).map_err(io::Error::other)
 }
 
-/// One number of each particle.
+/// One number per particle.
 fn numbers<W: Write + Seek>(
     archive: &mut Archive<W>,
     strip: &Strip<'_>,
@@ -221,7 +221,7 @@ fn numbers<W: Write + Seek>(
     }
 }
 
-/// The numbers of the system, one behind another.
+/// The numbers of the system, one after another.
 fn system<W: Write + Seek>(archive: &mut Archive<W>, column: &Column, values: &Array) -> io::Result<()> {
     let real = |list: Vec<f64>, archive: &mut Archive<W>| {
         put(archive, &column.name, &[list.len() as u64], list.iter().map(|x| x.to_le_bytes()), 0.0_f64)
@@ -236,7 +236,7 @@ fn system<W: Write + Seek>(archive: &mut Archive<W>, column: &Column, values: &A
     }
 }
 
-/// What a step keeps, in single precision where no number loses a bit by that.
+/// Restart data, in single precision if no number loses a bit.
 fn kept<W: Write + Seek>(archive: &mut Archive<W>, name: &str, numbers: &[f64]) -> io::Result<()> {
     let shape = &[numbers.len() as u64];
     #[expect(clippy::cast_possible_truncation, reason = "looked at before")]
@@ -246,7 +246,7 @@ fn kept<W: Write + Seek>(archive: &mut Archive<W>, name: &str, numbers: &[f64]) 
     put(archive, name, shape, numbers.iter().map(|x| x.to_le_bytes()), 0.0_f64)
 }
 
-/// Beyond it a ZIP entry needs its long form \[bytes\].
+/// The size above which a ZIP entry needs its long form \[bytes\].
 const LARGE: u64 = 1 << 31;
 
 /// An archive that is written.

@@ -18,7 +18,7 @@ use crate::error::Error;
 use crate::kernel::Columns;
 use crate::state::State;
 
-/// Its line in the register.
+/// Its entry in the register.
 pub(super) const FORMAT: Format = Format {
     name: "obj",
     about: "Wavefront OBJ: positions, springs as lines, triangles as faces; a file of each state is a sequence of meshes",
@@ -37,7 +37,7 @@ const HELD: [&str; 3] = ["x", "y", "z"];
 const MARK: &str = "# motes ";
 const END: &str = "# end";
 
-/// What files do not hold of a state, where it says more than initial values.
+/// Data of a state that files do not hold, where it differs from initial values.
 fn left_out(state: &State) -> Vec<String> {
     let titles = titles::strips(state).into_iter().map(|strip| strip.text);
     let mut names: Vec<String> = titles.filter(|title| !HELD.contains(&title.as_str())).collect();
@@ -86,7 +86,7 @@ pub fn write_obj(mut out: impl Write, state: &State, options: &Options) -> io::R
 /// Reads a state of these columns: the vertices.
 ///
 /// # Errors
-/// [`Error::Input`] with the line of a vertex that is none, and of a file of motes that is cut.
+/// [`Error::Input`] with the line of an invalid vertex, and for a truncated file of motes.
 pub fn read(path: &Path, columns: &Columns) -> Result<State, Error> {
     sheet::read(path, columns, sheet)
 }
@@ -145,7 +145,7 @@ fn sheet(path: &Path, wanted: &dyn Fn(&str) -> bool) -> Result<Sheet, Error> {
     Ok(sheet)
 }
 
-/// Vertices, step and time out of the first line of a file of motes.
+/// The number of vertices, the step and the time from the first line of a file of motes.
 fn marked(head: &str) -> Option<(usize, u64, f64)> {
     let (_, rest) = head.split_once(": ")?;
     let (count, rest) = rest.split_once(" vertices, step ")?;

@@ -18,7 +18,7 @@ use crate::error::Error;
 use crate::kernel::{Bounds, Columns, Side};
 use crate::state::State;
 
-/// Its line in the register.
+/// Its entry in the register.
 pub(super) const FORMAT: Format = Format {
     name: "ply",
     about: "PLY, points for Blender, Houdini and MeshLab; springs are edges, triangles are faces",
@@ -88,15 +88,15 @@ pub fn write_ply(mut out: impl Write, state: &State, options: &Options) -> io::R
     Ok(())
 }
 
-/// Reads a state of these columns. Properties for which there is no column, such as colours and normals, are passed over.
+/// Reads a state of these columns. Properties without a column, such as colours and normals, are skipped.
 ///
 /// # Errors
-/// [`Error::Input`] with the line of a header that is none, or the byte of what is cut, missing, no number, or impossible.
+/// [`Error::Input`] with the line of an invalid header, or the byte of truncated, missing, non-numeric or invalid data.
 pub fn read(path: &Path, columns: &Columns) -> Result<State, Error> {
     sheet::read(path, columns, sheet)
 }
 
-/// How numbers stand in a file.
+/// The encoding of numbers in a file.
 #[derive(Clone, Copy, PartialEq)]
 enum Body {
     Text,
@@ -104,7 +104,7 @@ enum Body {
     Big,
 }
 
-/// A property: its type, and that of its length where it is a list.
+/// A property: its type, and that of its length if it is a list.
 struct Property {
     name: String,
     kind: Type,
@@ -123,7 +123,7 @@ struct Header {
     time: f64,
     step: u64,
     bounds: Option<Bounds>,
-    /// Where the numbers begin.
+    /// The start of the numbers.
     end: usize,
 }
 
@@ -200,7 +200,7 @@ fn sheet(path: &Path, wanted: &dyn Fn(&str) -> bool) -> Result<Sheet, Error> {
     Ok(sheet)
 }
 
-/// What an element that is not read is called in a list.
+/// The description of an element that is not read.
 fn left_out(element: &Element) -> Option<String> {
     let Element { name, count, .. } = element;
     let text = match name.as_str() {
@@ -210,7 +210,7 @@ fn left_out(element: &Element) -> Option<String> {
     (*count > 0).then_some(text)
 }
 
-/// The numbers of each property of an element, of which some properties are lists; those of the lists are passed over.
+/// The numbers of each property of an element, some of which are lists; those of the lists are skipped.
 fn uneven(bytes: &[u8], element: &Element, body: Body) -> Result<Vec<Vec<f64>>, String> {
     let mut columns: Vec<Vec<f64>> = element.properties.iter().map(|_| Vec::new()).collect();
     let (mut words, mut at) = (words(bytes), 0);
@@ -246,7 +246,7 @@ fn words(bytes: &[u8]) -> impl Iterator<Item = &[u8]> {
     bytes.split(u8::is_ascii_whitespace).filter(|word| !word.is_empty())
 }
 
-/// Where an element ends that begins here.
+/// The end of an element that begins here.
 fn passed(bytes: &[u8], start: usize, element: &Element, body: Body) -> Result<usize, String> {
     let Element { name, count, properties } = element;
     let cut = |has: u64| format!("byte {}: the file ends here; the header announces {count} of `{name}`, and {has} are there", bytes.len());
@@ -381,7 +381,7 @@ fn property(words: &[&str]) -> Option<Property> {
     }
 }
 
-/// The box of a comment.
+/// The box given in a comment.
 fn boxed(words: &[&str]) -> Option<Bounds> {
     let numbers: Vec<f64> = words.iter().map_while(|word| word.parse().ok()).collect();
     let sides: Vec<Side> = words.iter().skip(6).filter_map(|word| Side::from_name(word)).collect();

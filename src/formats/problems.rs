@@ -1,4 +1,4 @@
-//! Everything that is wrong with a file, gathered into one error.
+//! All faults of a file, collected into one error.
 
 use std::path::Path;
 
@@ -7,10 +7,10 @@ use crate::error::Error;
 use crate::kernel::{Array, Columns, ID};
 use crate::state::State;
 
-/// How many problems are spelled out.
+/// The number of faults that are shown.
 const SHOWN: usize = 20;
 
-/// A list of problems, of which the first are kept and the others counted.
+/// A list of faults: the first are kept, the others counted.
 #[derive(Debug, Default)]
 pub(super) struct Problems {
     shown: Vec<String>,
@@ -18,7 +18,7 @@ pub(super) struct Problems {
 }
 
 impl Problems {
-    /// Notes one. The text is only made if it will be shown.
+    /// Records a fault. The text is only made if it will be shown.
     pub(super) fn note(&mut self, text: impl FnOnce() -> String) {
         if self.shown.len() < SHOWN {
             self.shown.push(text());
@@ -50,7 +50,7 @@ impl Problems {
     }
 }
 
-/// The places of rows in the order of their ids, each of which must be there once. `place` names a row.
+/// The indices of rows in the order of their ids, each of which must occur once. `place` names a row.
 pub(super) fn order(ids: &[u64], place: impl Fn(usize) -> String, problems: &mut Problems) -> Vec<usize> {
     let mut order: Vec<usize> = (0..ids.len()).collect();
     order.sort_by_key(|row| ids[*row]);
@@ -71,7 +71,7 @@ pub(super) fn order(ids: &[u64], place: impl Fn(usize) -> String, problems: &mut
     order
 }
 
-/// The particles of a table in the order of their ids, with these where they are not 0, 1, 2, …
+/// The particles of a table in the order of their ids, with these ids unless they are 0, 1, 2, …
 pub(super) fn ordered(state: &State, ids: &[u64], order: &[usize]) -> State {
     let mut state = state.picked(order);
     let ids: Vec<u32> = order.iter().filter_map(|row| u32::try_from(*ids.get(*row)?).ok()).collect();

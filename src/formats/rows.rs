@@ -4,7 +4,7 @@ use std::io::{self, BufRead, Seek, SeekFrom};
 
 use ::csv::{ByteRecord, Position, Reader, ReaderBuilder, Trim};
 
-/// The longest beginning of a file that is looked at to find out how its cells are separated \[bytes\].
+/// The maximum number of bytes read to determine the separator of cells.
 const START: u64 = 1 << 16;
 
 /// A table, row by row. Empty lines and lines that start with `#` are no rows.
@@ -15,17 +15,17 @@ pub(super) enum Rows<R> {
     Blanks {
         /// The lines.
         file: R,
-        /// Bytes and lines that are read.
+        /// Bytes and lines read so far.
         byte: u64,
         line: u64,
     },
 }
 
-/// What the beginning of a file shows of a table.
+/// The properties of a table, by its beginning.
 pub(super) struct Opened<R> {
     /// Its rows.
     pub(super) rows: Rows<R>,
-    /// Names of columns out of the last comment before a first row that is all numbers, where there are as many.
+    /// Names of columns from the last comment before a first row of numbers, if there are as many.
     pub(super) titles: Option<ByteRecord>,
     /// Whether the first row is all numbers.
     pub(super) bare: bool,
@@ -73,7 +73,7 @@ fn is_number(cell: &[u8]) -> bool {
 }
 
 impl<R: BufRead> Rows<R> {
-    /// Reads the next row; `false` behind the last.
+    /// Reads the next row; `false` after the last.
     pub(super) fn next(&mut self, record: &mut ByteRecord) -> io::Result<bool> {
         let (file, byte, line) = match self {
             Self::Commas(reader) => return Ok(reader.read_byte_record(record)?),
@@ -86,7 +86,7 @@ impl<R: BufRead> Rows<R> {
             text.clear();
             let end = line_of(file, &mut text)?;
             *byte += text.len() as u64 + u64::from(end.is_some());
-            // The two bytes of one end of a line are one line.
+            // The two bytes of a line end count as one.
             let again = end == Some(b'\r') && file.fill_buf()?.first() == Some(&b'\n');
             *line += u64::from(end.is_some() && !again);
             let row = text.trim_ascii();
@@ -103,7 +103,7 @@ impl<R: BufRead> Rows<R> {
     }
 }
 
-/// Appends a line without its end, and gives the byte that ended it; none at the end of the file.
+/// Appends a line without its end, and returns the byte that ended it; `None` at the end of the file.
 fn line_of(file: &mut impl BufRead, text: &mut Vec<u8>) -> io::Result<Option<u8>> {
     loop {
         let some = file.fill_buf()?;

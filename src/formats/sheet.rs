@@ -1,4 +1,4 @@
-//! Lists of numbers as a binary file has them, one for each title, on their way to a state.
+//! Lists of numbers of a binary file, one for each title, before they become a state.
 
 use std::path::Path;
 
@@ -8,12 +8,12 @@ use crate::error::Error;
 use crate::kernel::{Column, Columns, Kind};
 use crate::state::State;
 
-/// What a file holds.
+/// The data of a file.
 #[derive(Default)]
 pub(super) struct Sheet {
-    /// All that is known of it without reading its numbers.
+    /// The contents, without the numbers.
     pub contents: Contents,
-    /// Those of its lists that were wanted.
+    /// The requested lists.
     pub lists: Vec<List>,
     /// The time of the state.
     pub time: f64,
@@ -28,9 +28,9 @@ pub(super) struct List {
     pub place: Place,
 }
 
-/// Where numbers are in a file, for messages.
+/// The positions of numbers in a file, for messages.
 pub(super) enum Place {
-    /// A number every so many bytes.
+    /// A number every `stride` bytes.
     Byte { first: u64, stride: u64 },
     /// An array of this name.
     Named(String),
@@ -48,7 +48,7 @@ impl Place {
 /// The column of ids, under this title in every format.
 pub(super) const ID: &str = "id";
 
-/// Reads a state of these columns by what reads the lists that are wanted. Lists for which there is no column are passed over.
+/// Reads a state of these columns with a function that reads the requested lists. Lists without a column are skipped.
 pub(super) fn read(
     path: &Path,
     columns: &Columns,
@@ -102,10 +102,10 @@ pub(super) fn read(
     Ok(state)
 }
 
-/// Looks whether ids fit 32 bits.
+/// Checks whether ids fit 32 bits.
 ///
 /// # Errors
-/// The first that does not.
+/// The first id that does not.
 pub(super) fn narrow(ids: &[u64]) -> Result<(), String> {
     match ids.iter().enumerate().find(|(_, id)| **id >= u64::from(u32::MAX)) {
         Some((row, id)) => Err(format!("[{row}] is the id {id}; {}", titles::LARGE_ID)),
@@ -113,7 +113,7 @@ pub(super) fn narrow(ids: &[u64]) -> Result<(), String> {
     }
 }
 
-/// The titles of an array of so many numbers for each particle: those of the column of this name, if it has as many.
+/// The titles of an array of `components` numbers for each particle: those of the column of this name, if it has as many.
 pub(super) fn titles_of(name: &str, components: usize) -> Vec<String> {
     let kind = match components {
         1 => Kind::Scalar,
@@ -128,7 +128,7 @@ pub(super) fn titles_of(name: &str, components: usize) -> Vec<String> {
 }
 
 impl Sheet {
-    /// Enters a heading, and gives its numbers if they are wanted.
+    /// Adds a heading, and returns its numbers if they are wanted.
     pub fn enter(
         &mut self,
         title: &str,

@@ -1,4 +1,4 @@
-//! The tags of an XML file, one behind another: enough of XML for the files of VTK, of which raw data is no XML.
+//! The tags of an XML file, one after another: the part of XML that VTK files need, whose raw data is not XML.
 
 /// A tag.
 #[derive(Debug, Clone, PartialEq)]
@@ -6,18 +6,18 @@ pub(super) struct Tag<'a> {
     /// Its name; that of an end begins with `/`.
     pub name: &'a str,
     attributes: &'a str,
-    /// Whether it is its own end.
+    /// Whether it is self-closing.
     pub empty: bool,
-    /// Where it begins, and where what follows begins \[bytes\].
+    /// Its start and its end \[bytes\].
     pub from: usize,
     pub to: usize,
 }
 
 impl<'a> Tag<'a> {
-    /// The next tag from this byte on; comments and declarations are passed over. `None` where there is none.
+    /// The next tag from this byte on; comments and declarations are skipped. `None` where there is none.
     ///
     /// # Errors
-    /// The byte of a tag that does not end.
+    /// The byte of a tag without an end.
     pub fn next(bytes: &'a [u8], mut at: usize) -> Result<Option<Self>, String> {
         loop {
             let Some(from) = find(bytes, at, b"<") else { return Ok(None) };
@@ -55,7 +55,7 @@ impl<'a> Tag<'a> {
     }
 }
 
-/// Where a tag that begins here ends: a `>` in quotes is none.
+/// The end of a tag that begins here: a `>` in quotes does not count.
 fn end(bytes: &[u8], from: usize) -> Option<usize> {
     let mut quote = None;
     for (place, byte) in bytes.iter().enumerate().skip(from + 1) {
@@ -73,7 +73,7 @@ fn find(bytes: &[u8], from: usize, word: &[u8]) -> Option<usize> {
     bytes.get(from..)?.windows(word.len()).position(|part| part == word).map(|place| from + place)
 }
 
-/// The bytes of a text in base 64 (RFC 4648); `None` where it is none. Each padded part is decoded by itself.
+/// The bytes of a text in base 64 (RFC 4648); `None` if it is invalid. Each padded part is decoded separately.
 pub(super) fn base64(text: &[u8]) -> Option<Vec<u8>> {
     let mut out = Vec::with_capacity(text.len() / 4 * 3);
     let mut four = [0_u8; 4];

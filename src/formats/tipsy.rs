@@ -15,7 +15,7 @@ use super::{Contents, Format, Heading, input, open};
 use crate::error::Error;
 use crate::state::State;
 
-/// Its line in the register. A header holds small counts, so it holds zeros; text does not.
+/// Its entry in the register. A header contains small counts, and therefore zeros; text does not.
 pub(super) const FORMAT: Format = Format {
     name: "tipsy",
     about: "Tipsy, the binary format of n-body codes: positions, velocities and masses",
@@ -34,7 +34,7 @@ const HEADER: usize = 28;
 const PADDING: usize = 4;
 /// The kinds of records in the order of the file, and their bytes.
 const KINDS: [(&str, u64); 3] = [("gas", 48), ("dark", 36), ("star", 44)];
-/// What it holds of a state.
+/// The titles that it can hold.
 const HELD: [&str; 7] = ["x", "y", "z", "vx", "vy", "vz", "mass"];
 /// The longest record.
 const LONGEST: usize = 48;
@@ -163,18 +163,18 @@ fn counted(header: &[u8; HEADER]) -> Result<(Bytes, [u64; 3]), String> {
     Ok((order, counts.map(|count| u64::try_from(count).unwrap_or(0))))
 }
 
-/// The columns that the format cannot hold, and that say more than their initial values.
+/// The columns that the format cannot hold, and whose values are not the initial ones.
 fn left_out(state: &State) -> Vec<String> {
     let titles = super::titles::strips(state).into_iter().map(|strip| strip.text);
     titles.filter(|title| !HELD.contains(&title.as_str())).collect()
 }
 
-/// Writes the standard form: big-endian, padded header, every particle a dark one in the order of the ids, with the same
-/// `softening` \[length\] and a potential of 0. Numbers are narrowed to f32. The format holds positions, velocities, masses and the
-/// time; the columns that it cannot hold, and that say more than their initial values, are given back by name.
+/// Writes the standard form: big-endian, padded header, every particle a dark one in the order of the ids, with the same `softening`
+/// \[length\] and a potential of 0. Numbers are narrowed to f32. The format holds positions, velocities, masses and the time; returns the
+/// names of the columns that it cannot hold, and whose values are not the initial ones.
 ///
 /// # Errors
-/// Those of `out`; and what Tipsy cannot hold: more than 2³¹ - 1 particles, numbers beyond the range of f32.
+/// Those of `out`; data that Tipsy cannot hold: more than 2³¹ - 1 particles, numbers beyond the range of f32.
 pub fn write_tipsy(mut out: impl Write, state: &State, softening: f64) -> io::Result<Vec<String>> {
     let particles = state;
     let count = i32::try_from(particles.len())

@@ -10,17 +10,17 @@ use crate::kernel::{Array, Column, Columns, ID, Kind, LIFE, Shape};
 use crate::life::Life;
 use crate::state::State;
 
-/// What to say of an id that has more than 32 bits; the last one is kept free.
+/// The message for an id that has more than 32 bits; the last one is reserved.
 pub(super) const LARGE_ID: &str = "ids above 4294967294 are not supported: renumber the particles";
 
-/// A component of a column, by the title that it has in files.
+/// A component of a column, with its title in files.
 #[derive(Debug, Clone)]
 pub(super) struct Title<'a> {
     /// The title.
     pub text: String,
     /// The column.
     pub column: &'a Column,
-    /// Which of its numbers for one particle it is.
+    /// Its index among the numbers of a particle.
     pub place: usize,
 }
 
@@ -29,8 +29,8 @@ fn width(column: &Column) -> usize {
     column.kind.components() * column.shape.len(1)
 }
 
-/// The titles of a column: `x`, `y`, `z`; `vx`, `vy`, `vz`; else its name, the number of the slot where there are several, and
-/// `_x`, `_y`, `_z`, `_w`.
+/// The titles of a column: `x`, `y`, `z`; `vx`, `vy`, `vz`; otherwise its name, the number of the slot where there are several, and `_x`,
+/// `_y`, `_z`, `_w`.
 pub(super) fn titles(column: &Column) -> Vec<Title<'_>> {
     let one = |(place, text): (usize, String)| Title { text, column, place };
     let own = |list: [&str; 3]| list.map(str::to_owned).into_iter().enumerate().map(one).collect();
@@ -48,7 +48,7 @@ pub(super) fn titles(column: &Column) -> Vec<Title<'_>> {
     (0..width(column)).map(|place| one((place, text(place)))).collect()
 }
 
-/// The columns that have a value for each particle, but ids: formats hold these in their own way.
+/// The columns that have a value for each particle, except ids, which formats treat separately.
 fn of_tables(columns: &Columns) -> impl Iterator<Item = &Column> {
     columns.iter().filter(|column| !matches!(column.shape, Shape::System(_)) && column.name != ID.name)
 }
@@ -59,12 +59,12 @@ pub(super) fn all(columns: &Columns) -> Vec<Title<'_>> {
 }
 
 impl Title<'_> {
-    /// A number of a message: of whole columns without a point.
+    /// A number in a message: without a decimal point in columns of integers.
     pub fn shown(&self, value: f64) -> String {
         let whole = self.column.kind == Kind::Whole && value.fract() == 0.0 && value.abs() < 1e15;
         if whole { format!("{value:.0}") } else { format!("{value:?}") }
     }
-    /// What is wrong with a number, if anything.
+    /// The fault of a number, if it is invalid.
     pub fn fault(&self, value: f64) -> Option<Cow<'static, str>> {
         if !value.is_finite() {
             return Some("is not finite".into());
@@ -86,7 +86,7 @@ impl Title<'_> {
     }
 }
 
-/// The values of a column out of what files hold for its titles; components that are left out have their initial value.
+/// The values of a column from the data of its titles; components that are left out have their initial value.
 pub(super) fn array(column: &Column, given: &[Option<Vec<f64>>], particles: usize) -> Array {
     let initial = column.initial.unwrap_or_default();
     let components = column.kind.components();
@@ -110,7 +110,7 @@ pub(super) fn array(column: &Column, given: &[Option<Vec<f64>>], particles: usiz
     }
 }
 
-/// A state of the numbers of a file, by the title's place among [`all`]; columns of which it has nothing are not given.
+/// A state from the numbers of a file, by the index of the title in [`all`]; columns without any data are not given.
 pub(super) fn state(columns: &Columns, mut given: Vec<Option<Vec<f64>>>, particles: usize) -> State {
     let mut state = State::default();
     for column in of_tables(columns) {
@@ -124,7 +124,7 @@ pub(super) fn state(columns: &Columns, mut given: Vec<Option<Vec<f64>>>, particl
     state
 }
 
-/// The numbers of a column, as a writer goes through them.
+/// The numbers of a title, in the form that writers use.
 pub(super) struct Strip<'a> {
     /// Their names.
     pub text: String,
@@ -136,9 +136,9 @@ pub(super) struct Strip<'a> {
 
 /// A number of a file.
 pub(super) enum Number {
-    /// A real one.
+    /// A real number.
     Real(f64),
-    /// A whole one.
+    /// An integer.
     Whole(u32),
 }
 
@@ -165,15 +165,15 @@ impl Number {
     }
 }
 
-/// Whether a reader that knows only f64 finds the same f32 when it narrows: rounding twice is not always rounding once. Of all
-/// f32 only ±7.038531e-26 is lost, half way between two of them for an f64.
+/// Whether a reader that uses only f64 obtains the same f32 after narrowing: rounding twice may differ from rounding once. Of all f32 only
+/// ±7.038531e-26 fails, whose decimal is half way between two f32 as an f64.
 fn reads_back(text: &str, single: f32) -> bool {
     #[expect(clippy::cast_possible_truncation, reason = "this is the question")]
     text.parse::<f64>().is_ok_and(|wide| (wide as f32).to_bits() == single.to_bits())
 }
 
 impl Strip<'_> {
-    /// That of a particle.
+    /// The number of a particle.
     pub fn of(&self, id: usize) -> Number {
         let place = id * self.slots + self.slot;
         match self.values {
@@ -189,7 +189,7 @@ impl Strip<'_> {
     }
 }
 
-/// Refuses names of columns that mean something else in files of a format; `meant` says what.
+/// Refuses names of columns that mean something else in files of a format; `meant` gives that meaning.
 ///
 /// # Errors
 /// The first of them.
@@ -206,10 +206,10 @@ pub(super) fn reserved<'a>(
     }
 }
 
-/// Looks whether single precision holds all numbers, where that is asked for.
+/// Checks whether single precision holds all numbers, if that is requested.
 ///
 /// # Errors
-/// The title and the particle of the first that is beyond it.
+/// The title and the particle of the first number that does not fit.
 pub(super) fn fit(strips: &[Strip<'_>], particles: usize, precision: Precision) -> io::Result<()> {
     if precision == Precision::Double {
         return Ok(());
@@ -270,13 +270,13 @@ fn of<'a>(column: &'a Column, values: &'a Array) -> impl Iterator<Item = Strip<'
     })
 }
 
-/// All that a table of particles holds of a state: positions, velocities and masses; sizes and species where one is not 0, life where
-/// one is not active; and every other column that it has.
+/// All columns that a table of particles holds: positions, velocities and masses; sizes and species where any is not 0, life where any is
+/// not active; and every other column of the state.
 pub(super) fn strips(state: &State) -> Vec<Strip<'_>> {
     kept(state).into_iter().flat_map(|(c, v)| of(c, v)).collect()
 }
 
-/// The columns of which those are, with their values.
+/// The columns of these, with their values.
 pub(super) fn kept(state: &State) -> Vec<(&Column, &Array)> {
     let usual = |column: &Column| match column.name.as_ref() {
         "size" => state.size().iter().any(|size| *size != 0.0),

@@ -20,7 +20,7 @@ use crate::state::State;
 
 pub use super::collection::Collection;
 
-/// Its line in the register.
+/// Its entry in the register.
 pub(super) const FORMAT: Format = Format {
     name: "vtp",
     about: "VTK polygons for ParaView, with a list of all states, snapshots.pvd; springs are lines, triangles are polygons",
@@ -49,7 +49,7 @@ enum Data<'a> {
     Places(Vec<u64>),
 }
 
-/// An array behind the XML: as it will be written, or already compressed.
+/// An array after the XML: in its final form, or already compressed.
 enum Appended<'a> {
     Plain(Data<'a>),
     Packed(Vec<u8>),
@@ -204,28 +204,27 @@ pub fn write_vtp(mut out: impl Write, state: &State, options: &Options) -> io::R
     out.write_all(b"\n</AppendedData>\n</VTKFile>\n")
 }
 
-/// Reads a state of these columns. Arrays for which there is no column are passed over.
+/// Reads a state of these columns. Arrays without a column are skipped.
 ///
 /// # Errors
-/// [`Error::Input`] with the byte of a tag that is none, of an array that is cut, or of a number that is impossible; another compression than
-/// zlib.
+/// [`Error::Input`] with the byte of an invalid tag, of a truncated array, or of an invalid number; a compression other than zlib.
 pub fn read(path: &Path, columns: &Columns) -> Result<State, Error> {
     sheet::read(path, columns, sheet)
 }
 
-/// What the whole file says of its arrays.
+/// The attributes of the whole file for its arrays.
 #[derive(Clone, Copy)]
 struct Layout {
     big: bool,
-    /// Of the counts before arrays.
+    /// The type of the counts before arrays.
     counts: Type,
     /// Whether arrays are compressed.
     packed: bool,
-    /// The byte behind `_`, and whether what follows is in base 64.
+    /// The byte after `_`, and whether the data there is in base 64.
     appended: Option<(usize, bool)>,
 }
 
-/// Where an array stands.
+/// The section of an array.
 #[derive(Clone, Copy, PartialEq)]
 enum Section {
     Field,
@@ -299,7 +298,7 @@ fn parsed(bytes: &[u8], wanted: &dyn Fn(&str) -> bool) -> Result<Sheet, String> 
     Ok(sheet)
 }
 
-/// Where the appended data begins.
+/// The start of the appended data.
 fn appended(bytes: &[u8]) -> Result<Option<(usize, bool)>, String> {
     let word = b"<AppendedData";
     let Some(from) = bytes.windows(word.len()).position(|part| part == word) else { return Ok(None) };
@@ -334,7 +333,7 @@ fn array(
         Some("UInt64") => Type::U64,
         Some("Float32") => Type::F32,
         Some("Float64") => Type::F64,
-        // Of strings, say.
+        // Such as strings.
         _ => return Ok(()),
     };
     if !(1..=MOST).contains(&components) {
@@ -374,16 +373,16 @@ fn array(
     Ok(())
 }
 
-/// More components than this is none.
+/// The maximum number of components.
 const MOST: usize = 4096;
 
 /// The numbers of an array.
 enum Numbers<'a> {
-    /// In the file as they are, from this byte on.
+    /// Raw in the file, from this byte on.
     There { bytes: &'a [u8], first: usize, kind: Type, big: bool },
-    /// Out of base 64.
+    /// Decoded from base 64.
     Decoded { bytes: Vec<u8>, first: usize, kind: Type, big: bool },
-    /// Out of text.
+    /// Parsed from text.
     Text(Vec<f64>),
 }
 
@@ -402,7 +401,7 @@ fn data<'a>(bytes: &'a [u8], tag: &Tag<'_>, kind: Type, layout: Layout, numbers:
     let at = tag.from;
     let needed = numbers.checked_mul(kind.width()).ok_or_else(|| format!("byte {at}: {numbers} numbers are too many"))?;
     let wrong = |there: f64| format!("byte {at}: `{}` needs {needed} bytes, and the file has {there} for it", shortened(name));
-    // The bytes behind their count.
+    // The bytes after their count.
     let counts = |bytes: &[u8]| {
         let count = bytes.get(..counted).map(|bytes| layout.counts.number(bytes, big)).ok_or_else(|| wrong(0.0))?;
         if count.to_bits() == (needed as f64).to_bits() { Ok(()) } else { Err(wrong(count)) }

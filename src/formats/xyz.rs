@@ -18,7 +18,7 @@ use crate::error::Error;
 use crate::kernel::{Bounds, Column, Columns, Side};
 use crate::state::State;
 
-/// Its line in the register.
+/// Its entry in the register.
 pub(super) const FORMAT: Format = Format {
     name: "xyz",
     about: "extended XYZ: text, one line for each particle, for OVITO, ASE and VMD",
@@ -36,18 +36,18 @@ pub(super) const FORMAT: Format = Format {
     divides: false,
 };
 
-/// Elements by their numbers; a species beyond them has no name here.
+/// Elements by their numbers; species beyond them have no name here.
 const ELEMENTS: &str = "X H He Li Be B C N O F Ne Na Mg Al Si P S Cl Ar K Ca Sc Ti V Cr Mn Fe Co Ni Cu Zn Ga Ge As Se Br Kr Rb Sr Y Zr Nb \
                         Mo Tc Ru Rh Pd Ag Cd In Sn Sb Te I Xe Cs Ba La Ce Pr Nd Pm Sm Eu Gd Tb Dy Ho Er Tm Yb Lu Hf Ta W Re Os Ir Pt Au Hg \
                         Tl Pb Bi Po At Rn Fr Ra Ac Th Pa U Np Pu Am Cm Bk Cf Es Fm Md No Lr Rf Db Sg Bh Hs Mt Ds Rg Cn Nh Fl Mc Lv Ts Og";
 
-/// What a plain XYZ file holds, which says nothing of it.
+/// The properties of a plain XYZ file, which does not state them.
 const PLAIN: &str = "species:S:1:pos:R:3";
 
-/// What ASE writes in the place of velocities: these times the mass.
+/// The property that ASE writes in place of velocities: velocity times mass.
 const MOMENTA: &str = "momenta";
 
-/// The column of a property: that of its name, or what other programs call it so.
+/// The column of a property: that of its name, or the one for which other programs use that name.
 fn column_of<'a>(property: &'a str, columns: &Columns) -> &'a str {
     match property {
         name if columns.get(name).is_some() => name,
@@ -59,7 +59,7 @@ fn column_of<'a>(property: &'a str, columns: &Columns) -> &'a str {
     }
 }
 
-/// The property of a column: as other programs call it, if no other column of these has that name.
+/// The property of a column: the name in other programs, if no other of these columns has that name.
 fn property_of<'a>(column: &'a Column, columns: &[&Column]) -> &'a str {
     let usual = match column.name.as_ref() {
         "position" => "pos",
@@ -165,8 +165,8 @@ struct Property {
 /// Reads a state of these columns: the one frame of a file, plain XYZ too.
 ///
 /// # Errors
-/// [`Error::Input`] that lists, with the line, all that is wrong: a count that is none or not that of the lines, properties that
-/// are unknown, of another width or kind than their column, or given twice, numbers that are none, a second frame.
+/// [`Error::Input`] that lists all faults with their lines: a count that is invalid or not that of the lines, properties that are unknown,
+/// of another width or kind than their column, or given twice, invalid numbers, a second frame.
 pub fn read(path: &Path, columns: &Columns) -> Result<State, Error> {
     let (file, _) = open(path)?;
     let failed = |error: io::Error| input(path, error.to_string());
@@ -181,7 +181,7 @@ pub fn read(path: &Path, columns: &Columns) -> Result<State, Error> {
     let properties = properties(said("Properties").unwrap_or(PLAIN), &mut problems);
     let known = titles::all(columns);
     let mut given: Vec<Option<Vec<f64>>> = known.iter().map(|_| None).collect();
-    // Where the numbers of a property go: the place of its first title.
+    // The destination of a property's numbers: the index of its first title.
     let places: Vec<Option<usize>> = properties.iter().map(|property| place(property, columns, &known, &mut problems)).collect();
     for (property, place) in properties.iter().zip(&places) {
         for k in 0..if place.is_some() { property.width } else { 0 } {
@@ -260,7 +260,7 @@ pub fn read(path: &Path, columns: &Columns) -> Result<State, Error> {
     Ok(state)
 }
 
-/// Makes velocities of momenta.
+/// Converts momenta to velocities.
 fn divide(given: &mut [Option<Vec<f64>>], known: &[titles::Title<'_>], problems: &mut Problems) {
     let of = |column: &str| known.iter().position(|title| title.column.name == column);
     let (Some(velocity), Some(mass)) = (of("velocity"), of("mass").and_then(|place| given[place].clone())) else { return };
@@ -274,7 +274,7 @@ fn divide(given: &mut [Option<Vec<f64>>], known: &[titles::Title<'_>], problems:
     }
 }
 
-/// The lines of a file. One that is no UTF-8 is read with signs in the place of what is none.
+/// The lines of a file. Invalid UTF-8 is replaced by replacement characters.
 struct Lines {
     file: BufReader<File>,
     line: Vec<u8>,
@@ -327,7 +327,7 @@ fn properties(text: &str, problems: &mut Problems) -> Vec<Property> {
     all
 }
 
-/// The place of the first title of a property's column; none for ids.
+/// The index of the first title of a property's column; `None` for ids.
 fn place(property: &Property, columns: &Columns, known: &[titles::Title<'_>], problems: &mut Problems) -> Option<usize> {
     let (name, width) = (column_of(&property.name, columns), property.width);
     if name == "id" && width == 1 {
@@ -361,7 +361,7 @@ fn place(property: &Property, columns: &Columns, known: &[titles::Title<'_>], pr
     Some(first)
 }
 
-/// The number of a cell: of an element, that in the periodic table.
+/// The number in a cell: for an element, its number in the periodic table.
 fn number(property: &Property, cell: &str) -> Option<f64> {
     match property.kind {
         'S' => {

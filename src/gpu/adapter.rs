@@ -7,7 +7,7 @@ use crate::kernel::Machine;
 /// The choice of an adapter.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub enum Choice {
-    /// The fastest kind there is: discrete, integrated, virtual, software.
+    /// The fastest kind available: discrete, integrated, virtual, software.
     #[default]
     Best,
     /// By its index in [`adapters`], or by a part of its name in upper or lower case.
@@ -18,15 +18,15 @@ pub enum Choice {
 pub struct Found {
     /// The adapter.
     pub adapter: wgpu::Adapter,
-    /// The device, with the features and limits that help.
+    /// The device, with the optional features and limits that kernels can use.
     pub device: wgpu::Device,
     /// Its queue.
     pub queue: wgpu::Queue,
-    /// Its errors that were reported outside of any call.
+    /// Errors of the device that were reported outside of any call.
     pub faults: Faults,
 }
 
-/// What to do where there is no driver.
+/// The advice where there is no driver.
 pub const NO_DRIVER: &str = "no GPU driver was found (on Debian or Ubuntu `apt-get install mesa-vulkan-drivers` brings a fast one that \
                              runs on the processor)";
 
@@ -36,7 +36,7 @@ impl Found {
     pub fn describe(&self) -> String {
         describe(&self.adapter.get_info())
     }
-    /// Why OpenGL runs the kernels, where it was not asked for.
+    /// The reason why OpenGL runs the kernels, if it was not chosen.
     #[must_use]
     pub fn substitute(&self) -> Option<String> {
         driver::substitute(&self.adapter.get_info())
@@ -71,8 +71,8 @@ impl Found {
     }
 }
 
-/// An instance, as the environment (`WGPU_BACKEND` …) has it; if it says nothing, without OpenGL, whose drivers talk to
-/// standard error where there is no desktop.
+/// An instance, as set by the environment (`WGPU_BACKEND` …); if that is not set, without OpenGL, whose drivers write to standard error
+/// where there is no desktop.
 #[must_use]
 pub fn instance() -> wgpu::Instance {
     instance_of(wgpu::Backends::PRIMARY)
@@ -83,10 +83,10 @@ fn instance_of(backends: wgpu::Backends) -> wgpu::Instance {
     wgpu::Instance::new(wgpu::InstanceDescriptor { backends, flags: flags(), ..default }.with_env())
 }
 
-/// What an instance should check. Indirect arguments of this crate are workgroups that fit the device, or zero, and no user's
-/// shader can write them. To check them on the device costs a dispatch and two barriers for each indirect dispatch: where
-/// that is left out, an iteration that a solver does not need takes 1 µs instead of 60 µs on lavapipe. Direct3D 12 needs the
-/// check, which passes on how many workgroups there are.
+/// The checks of an instance. Indirect arguments of this crate are workgroup counts that fit the device, or zero, and no user's shader can
+/// write them. Checking them on the device costs a dispatch and two barriers for each indirect dispatch: without the check, an unneeded
+/// iteration of a solver takes 1 µs instead of 60 µs on lavapipe. Direct3D 12 needs the check, which passes the workgroup counts to
+/// shaders.
 #[must_use]
 pub fn flags() -> wgpu::InstanceFlags {
     let checked =
@@ -94,7 +94,7 @@ pub fn flags() -> wgpu::InstanceFlags {
     wgpu::InstanceFlags::from_build_config().difference(wgpu::InstanceFlags::VALIDATION_INDIRECT_CALL) | checked
 }
 
-/// All adapters, best first. Those of OpenGL are looked for only where there are no others.
+/// All adapters, best first. Those of OpenGL are only listed where there are no others.
 pub async fn adapters(instance: &wgpu::Instance) -> Vec<wgpu::Adapter> {
     let mut all = instance.enumerate_adapters(wgpu::Backends::all()).await;
     if all.is_empty() {
@@ -119,7 +119,7 @@ fn rank(info: &wgpu::AdapterInfo) -> (u8, u8) {
 /// The chosen one of them.
 ///
 /// # Errors
-/// [`Error::NoAdapter`] that lists what there is.
+/// [`Error::NoAdapter`] that lists the available ones.
 pub fn choose(mut adapters: Vec<wgpu::Adapter>, choice: &Choice) -> Result<wgpu::Adapter, Error> {
     if adapters.is_empty() {
         return Err(Error::NoAdapter(NO_DRIVER.to_owned()));
@@ -142,19 +142,18 @@ pub fn choose(mut adapters: Vec<wgpu::Adapter>, choice: &Choice) -> Result<wgpu:
     }
 }
 
-/// The optional features of an adapter that are worth asking for. None is needed: a device with [`wgpu::Features::empty`] runs
-/// everything.
+/// The optional features of an adapter that kernels can use. None is required: a device with [`wgpu::Features::empty`] runs everything.
 ///
-/// * `SUBGROUP` buys speed: lanes broadcast particles and tree nodes to each other, mostly on software adapters.
-/// * `TIMESTAMP_QUERY` buys times by the device's own clock, in [`Gpu::timed`](crate::Gpu::timed), the benches and `motes doctor`.
+/// * `SUBGROUP` increases speed: lanes broadcast particles and tree nodes to each other, mostly on software adapters.
+/// * `TIMESTAMP_QUERY` provides times of the device's own clock, in [`Gpu::timed`](crate::Gpu::timed), the benches and `motes doctor`.
 #[must_use]
 pub fn wanted_features(adapter: &wgpu::Adapter) -> wgpu::Features {
     adapter.features() & (wgpu::Features::SUBGROUP | wgpu::Features::TIMESTAMP_QUERY)
 }
 
-/// The limits of an adapter that are worth asking for: WebGPU's defaults, and the largest buffers and bindings that it offers. None
-/// above [`wgpu::Limits::default`] is needed; `max_buffer_size` and `max_storage_buffer_binding_size` buy more particles: a field
-/// takes 16 bytes of each, so that 128 MiB, the default, are enough for 8 million.
+/// The limits of an adapter that kernels can use: WebGPU's defaults, and the largest buffers and bindings that it offers. None above
+/// [`wgpu::Limits::default`] is required; `max_buffer_size` and `max_storage_buffer_binding_size` allow more particles: a field has 16
+/// bytes per particle, so that the default of 128 MiB suffices for 8 million.
 #[must_use]
 pub fn wanted_limits(adapter: &wgpu::Adapter) -> wgpu::Limits {
     let offered = adapter.limits();
@@ -183,7 +182,7 @@ pub async fn open(adapter: wgpu::Adapter) -> Result<Found, Error> {
     Ok(Found { adapter, device, queue, faults })
 }
 
-/// Opens the best device that there is: discrete, integrated, virtual, software, in this order.
+/// Opens the best available device: discrete, integrated, virtual, software, in this order.
 ///
 /// # Errors
 /// [`Error::NoAdapter`] when there is none.
@@ -204,20 +203,20 @@ pub(super) fn describe(info: &wgpu::AdapterInfo) -> String {
     format!("{} ({kind}, {:?}, {})", info.name, info.backend, driver.trim())
 }
 
-/// Bytes of a field, at most.
+/// The maximum number of bytes of a field.
 pub(super) fn bindable(limits: &wgpu::Limits) -> u64 {
     limits.max_buffer_size.min(limits.max_storage_buffer_binding_size)
 }
 
-/// What kernels may want to know of a device.
+/// The properties of a device that kernels depend on.
 pub(super) fn machine(device: &wgpu::Device) -> Machine {
     let info = device.adapter_info();
     let software = info.device_type == wgpu::DeviceType::Cpu;
     let fixed = info.subgroup_min_size == info.subgroup_max_size;
-    // A browser's compiler wants `enable subgroups;`, which naga does not know.
+    // A browser's compiler requires `enable subgroups;`, which naga does not support.
     let usable = device.features().contains(wgpu::Features::SUBGROUP) && fixed && cfg!(not(target_arch = "wasm32"));
     let subgroup = if usable { info.subgroup_min_size } else { 0 };
-    // A large GPU holds about a quarter of a million invocations at once; a software adapter needs one workgroup per core.
+    // A large GPU runs about a quarter of a million invocations at once; a software adapter needs one workgroup per core.
     let invocations = if software { 256 } else { 1 << 18 };
     let limits = device.limits();
     let workgroups = limits.max_compute_workgroups_per_dimension;

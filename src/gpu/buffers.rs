@@ -10,7 +10,7 @@ pub struct Buffers {
     device: wgpu::Device,
     count: u32,
     padding: u64,
-    /// Those that hold indirect arguments.
+    /// The fields that hold indirect arguments.
     indirect: BTreeSet<String>,
     named: BTreeMap<String, (wgpu::Buffer, u64)>,
 }
@@ -28,7 +28,7 @@ impl Buffers {
     pub fn pad(&mut self, elements: u64) {
         self.padding = elements;
     }
-    /// Says that a field, once it is made, holds indirect arguments.
+    /// Marks a field, before it is created, as one of indirect arguments.
     pub fn dispatches(&mut self, name: &str) {
         self.indirect.insert(name.to_owned());
     }
@@ -38,7 +38,7 @@ impl Buffers {
     pub fn forget(&mut self, name: &str) {
         self.named.remove(name);
     }
-    /// Makes a field of at least so many bytes, unless there is one. Whether it is new.
+    /// Creates a field of at least `bytes` bytes, unless it exists. Returns whether it is new.
     pub fn require(&mut self, name: &str, bytes: u64) -> Result<bool, Error> {
         if let Some((_, have)) = self.named.get(name) {
             if *have < bytes {

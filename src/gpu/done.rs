@@ -1,5 +1,5 @@
-//! Completion of a submission. The device is polled without waiting: of two threads that wait for a time on one device, wgpu
-//! lets one panic when its time is over while the other clears the queue.
+//! Completion of a submission. The device is polled without waiting: if two threads wait for a time on one device, wgpu can panic in one of
+//! them when its time is over while the other clears the queue.
 
 use std::sync::Arc;
 use std::time::Duration;
@@ -9,48 +9,48 @@ use web_time::Instant;
 
 use crate::error::Error;
 
-/// The shortest pause between two looks at a device. Later ones are a sixteenth of what was waited already.
+/// The shortest pause between two polls of a device. Later ones are a sixteenth of the time waited so far.
 #[cfg(not(target_arch = "wasm32"))]
 const SHORTEST: Duration = Duration::from_micros(20);
 /// The longest pause.
 #[cfg(not(target_arch = "wasm32"))]
 const LONGEST: Duration = Duration::from_micros(500);
 
-/// Is set once all is done that was submitted before it was made.
+/// A flag that is set once all work submitted before its creation is complete.
 pub struct Done {
     event: Arc<ManualResetEvent>,
     index: wgpu::SubmissionIndex,
 }
 
 impl Done {
-    /// Of what a queue has taken so far, the last of it this submission.
+    /// For all work submitted to a queue so far, of which `index` is the last submission.
     pub fn of(queue: &wgpu::Queue, index: wgpu::SubmissionIndex) -> Self {
         let event = Arc::new(ManualResetEvent::new(false));
         let set = event.clone();
         queue.on_submitted_work_done(move || set.set());
         Self { event, index }
     }
-    /// Looks for so long at most. A browser answers while its own loop runs, and is not waited for.
+    /// Polls for at most `time`. A browser answers in its own event loop, and is not waited for.
     ///
     /// # Errors
-    /// [`Error::Lost`] when the device does not know the submission: it is lost.
+    /// [`Error::Lost`] when the submission is unknown to the device: it is lost.
     pub fn within(&self, device: &wgpu::Device, time: Duration) -> Result<bool, Error> {
         if !wait_until(device, time, || self.event.is_set())? {
             return Ok(false);
         }
-        // A device that is lost takes submissions silently, says that they are done, and does not know them afterwards. One that is
-        // done is not waited for.
+        // A lost device accepts submissions silently, reports them as complete, and does not recognise them afterwards. A complete one is
+        // not waited for.
         let known = wgpu::PollType::Wait { submission_index: Some(self.index.clone()), timeout: Some(Duration::ZERO) };
         polled(device, known).map(|()| true)
     }
-    /// Wakes the task that asks when it is set. Only a browser does so by itself.
+    /// Waits until the flag is set. Only a browser wakes the task by itself.
     #[cfg(target_arch = "wasm32")]
     pub async fn awaited(&self) {
         self.event.wait().await;
     }
 }
 
-/// Polls a device. wgpu ends in a panic where a driver says that its device is lost: here that is an error.
+/// Polls a device. wgpu panics when a driver reports that its device is lost: here that is an error.
 ///
 /// # Errors
 /// [`Error::Lost`] when the device is.
@@ -63,7 +63,7 @@ pub fn polled(device: &wgpu::Device, how: wgpu::PollType) -> Result<(), Error> {
     }
 }
 
-/// Looks at a device until something is so, for so long at most: whether it is.
+/// Polls a device until a condition holds, for at most `time`; returns whether it holds.
 ///
 /// # Errors
 /// [`Error::Lost`] when the device is.
@@ -83,7 +83,7 @@ pub fn wait_until(device: &wgpu::Device, time: Duration, mut so: impl FnMut() ->
     }
 }
 
-/// A browser answers while its own loop runs.
+/// A browser answers in its own event loop.
 #[cfg(target_arch = "wasm32")]
 pub fn wait_until(_: &wgpu::Device, _: Duration, mut so: impl FnMut() -> bool) -> Result<bool, Error> {
     Ok(so())

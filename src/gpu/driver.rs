@@ -1,16 +1,16 @@
-//! Known drivers, and why the expected one is not used.
+//! Known drivers, and the reasons why the expected one is not used.
 
 use std::ffi::OsString;
 use std::path::Path;
 
 use wgpu::{AdapterInfo, Backend};
 
-/// Variables with which a user names the files of Vulkan drivers, in the order in which the loader asks for them.
+/// Variables that give the files of Vulkan drivers, in the order in which the loader reads them.
 const FILES: [&str; 2] = ["VK_DRIVER_FILES", "VK_ICD_FILENAMES"];
-/// The variable with which a user chooses a backend.
+/// The variable that selects a backend.
 const CHOICE: &str = "WGPU_BACKEND";
 
-/// What a driver does that costs its user time and memory.
+/// A known defect of a driver that costs time and memory.
 pub fn warning(info: &AdapterInfo) -> Option<String> {
     let (major, minor) = mesa(&info.driver_info)?;
     let recompiles = info.backend == Backend::Vulkan && info.name.contains("llvmpipe");
@@ -24,14 +24,14 @@ pub fn warning(info: &AdapterInfo) -> Option<String> {
     })
 }
 
-/// The version of Mesa that a driver names, `Mesa 22.3.6 (LLVM 15.0.6)`.
+/// The version of Mesa in the description of a driver, `Mesa 22.3.6 (LLVM 15.0.6)`.
 fn mesa(driver: &str) -> Option<(u32, u32)> {
     let version = driver.split("Mesa ").nth(1)?;
     let mut numbers = version.split(|c: char| !c.is_ascii_digit()).map(|n| n.parse().ok());
     Some((numbers.next()??, numbers.next()??))
 }
 
-/// Why OpenGL runs the kernels, where it was not asked for.
+/// The reason why OpenGL runs the kernels, if it was not chosen.
 pub fn substitute(info: &AdapterInfo) -> Option<String> {
     substitute_in(info.backend, |name| std::env::var_os(name))
 }

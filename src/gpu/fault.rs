@@ -6,12 +6,12 @@ use std::task::{Context, Poll, Waker};
 
 use crate::error::Error;
 
-/// The first complaint of a device that came outside of any call of ours: it was lost, or refused something.
+/// The first error of a device that was reported outside of our calls: a loss, or a validation error.
 #[derive(Debug, Clone, Default)]
 pub struct Faults(Arc<Mutex<Option<String>>>);
 
 impl Faults {
-    /// Listens to a device that is ours; another's owner has callbacks of its own.
+    /// Registers callbacks at a device of our own; the owner of another device has its own.
     pub(super) fn listen(device: &wgpu::Device) -> Self {
         let faults = Self::default();
         let (lost, refused) = (faults.clone(), faults.clone());
@@ -28,10 +28,10 @@ impl Faults {
             first.get_or_insert(message);
         }
     }
-    /// The first complaint, as an error.
+    /// The first reported error.
     ///
     /// # Errors
-    /// When there was one.
+    /// The reported error, if there was one.
     pub fn check(&self) -> Result<(), Error> {
         match self.0.lock().ok().and_then(|first| first.clone()) {
             Some(message) => Err(sort(message)),
@@ -40,8 +40,8 @@ impl Faults {
     }
 }
 
-/// Calls with both error scopes open. The futures of a native device are ready at once; on the web a complaint comes
-/// later, and goes to the page's console.
+/// Calls a function with both error scopes open. The futures of a native device are ready at once; on the web an error arrives later, and
+/// is written to the page's console.
 pub fn scoped<T>(device: &wgpu::Device, call: impl FnOnce() -> T) -> Result<T, Error> {
     let memory = device.push_error_scope(wgpu::ErrorFilter::OutOfMemory);
     let internal = device.push_error_scope(wgpu::ErrorFilter::Internal);
@@ -56,7 +56,7 @@ pub fn scoped<T>(device: &wgpu::Device, call: impl FnOnce() -> T) -> Result<T, E
     }
 }
 
-/// A device that is lost, or that its owner has destroyed, makes invalid buffers silently: their use is refused.
+/// A lost device, or one that its owner has destroyed, silently creates invalid buffers: their use is refused.
 fn is_lost(device: &wgpu::Device) -> bool {
     let usage = wgpu::BufferUsages::MAP_READ | wgpu::BufferUsages::COPY_DST;
     let descriptor = wgpu::BufferDescriptor { label: Some("probe"), size: 4, usage, mapped_at_creation: false };
@@ -65,7 +65,7 @@ fn is_lost(device: &wgpu::Device) -> bool {
     ready(refused.pop()).flatten().is_some()
 }
 
-/// A lost device says so only in words.
+/// The loss of a device is only given in the message.
 fn sort(message: String) -> Error {
     let words = message.to_lowercase();
     if words.contains("lost") {

@@ -73,35 +73,35 @@ impl Gpu {
             saved: Saved::default(),
         })
     }
-    /// Pretends to be another machine, so that a test can run the variants that this one would not choose.
+    /// Sets the properties of another machine, so that a test can run variants that this one would not choose.
     pub fn pretend(&mut self, machine: Machine) {
         self.machine = machine;
     }
-    /// Cuts submissions so that each takes about this long, and gives up waiting for one after `patience`.
+    /// Divides submissions so that each takes about this long, and times out after waiting for `patience`.
     pub fn limit_submissions(&mut self, submission: Duration, patience: Duration) {
         self.queue.limit_submissions(submission, patience);
     }
-    /// Keeps the pipelines that there are, whatever is forgotten later.
+    /// Retains the existing pipelines, even if others are dropped later.
     pub fn keep_pipelines(&mut self) {
         self.pipelines.keep();
     }
-    /// Lets go of pipelines that no program keeps, and that were made since [`Gpu::keep_pipelines`]: thousands of different plans
-    /// would hold much memory.
+    /// Drops pipelines that no program uses and that were made since [`Gpu::keep_pipelines`]: thousands of different plans would use much
+    /// memory.
     pub fn forget_pipelines(&mut self) {
         self.pipelines.forget();
     }
-    /// Pipelines that there are: shaders with their constants, each compiled once.
+    /// The number of pipelines: shaders with their constants, each compiled once.
     #[must_use]
     pub fn pipelines(&self) -> usize {
         self.pipelines.len()
     }
-    /// Submissions so far.
+    /// The number of submissions so far.
     #[must_use]
     pub fn submissions(&self) -> u64 {
         self.queue.submissions()
     }
-    /// Makes every field that comes into being from now on longer by so many elements of 16 bytes; a test
-    /// fills them and looks there for what a kernel should not have written.
+    /// Adds `elements` elements of 16 bytes to every field created from now on; a test fills them and checks that no kernel has written
+    /// there.
     pub fn pad(&mut self, elements: u64) {
         self.buffers.pad(elements);
     }
@@ -121,19 +121,19 @@ impl Gpu {
     pub fn describe(&self) -> String {
         adapter::describe(&self.device.adapter_info())
     }
-    /// What its driver does that costs time and memory, if it is known for that.
+    /// A known defect of its driver that costs time and memory, if there is one.
     #[must_use]
     pub fn warning(&self) -> Option<String> {
         driver::warning(&self.device.adapter_info())
     }
-    /// Waits until the device has done all that was submitted.
+    /// Waits until the device has completed all submitted work.
     ///
     /// # Errors
     /// When it is lost or does not answer in time.
     pub fn wait(&mut self) -> Result<(), Error> {
         self.queue.wait()
     }
-    /// Runs a program in one submission, and gives the seconds by the device's own clock, if it has one for us.
+    /// Runs a program in one submission, and returns the seconds by the device's own clock, if that is available.
     ///
     /// # Errors
     /// When the device is lost or does not answer in time.
@@ -150,7 +150,7 @@ impl Gpu {
         let owners = program.dispatches.iter().map(|dispatch| program.owner(dispatch));
         Ok(seconds.map(|seconds| owners.zip(seconds).collect()))
     }
-    /// Reads what every kernel knows: the clock, and the rest as it was set.
+    /// Reads the parameters of every kernel: the clock from the device, and the rest as it was set.
     ///
     /// # Errors
     /// When the device is lost or does not answer in time.

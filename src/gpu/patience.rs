@@ -8,10 +8,10 @@ use super::pipeline::{Pipeline, make};
 use crate::error::Error;
 use crate::kernel::{Access, Pass};
 
-/// Makes a pipeline, and has the driver do all that it puts off until the first dispatch.
+/// Makes a pipeline, and forces the driver to finish all work that it defers until the first dispatch.
 ///
 /// # Errors
-/// [`Error::Timeout`] where that takes too long, or what the driver complains of.
+/// [`Error::Timeout`] if that takes too long, or the error of the driver.
 pub fn made(device: &wgpu::Device, queue: &wgpu::Queue, pass: &Pass, patience: Duration) -> Result<Pipeline, Error> {
     let (done, awaited) = mpsc::channel();
     let (device, queue, law) = (device.clone(), queue.clone(), pass.clone());
@@ -21,7 +21,7 @@ pub fn made(device: &wgpu::Device, queue: &wgpu::Queue, pass: &Pass, patience: D
             begin(&device, &queue, &law, &pipeline);
             pipeline
         });
-        // Where the wait is over, it is dropped.
+        // After a timeout it is dropped.
         let _ = done.send(pipeline);
     };
     let thread = std::thread::Builder::new().name("compile".to_owned()).spawn(work);
@@ -39,7 +39,7 @@ pub fn made(device: &wgpu::Device, queue: &wgpu::Queue, pass: &Pass, patience: D
     })
 }
 
-/// Dispatches no workgroup at all, on buffers of the least size, and waits for the end of that.
+/// Dispatches no workgroups, on buffers of the minimum size, and waits for completion.
 fn begin(device: &wgpu::Device, queue: &wgpu::Queue, law: &Pass, pipeline: &Pipeline) {
     let mut encoder = device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
     {
@@ -72,6 +72,6 @@ fn begin(device: &wgpu::Device, queue: &wgpu::Queue, law: &Pass, pipeline: &Pipe
         pass.dispatch_workgroups(0, 1, 1);
     }
     let index = queue.submit([encoder.finish()]);
-    // What is wrong with the device is seen at its next use.
+    // A fault of the device is detected at its next use.
     let _ = device.poll(wgpu::PollType::Wait { submission_index: Some(index), timeout: None });
 }

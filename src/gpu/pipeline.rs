@@ -39,7 +39,7 @@ impl Pipelines {
         self.made.len() + self.kept.len()
     }
 
-    /// Drops all that are not retained; programs hold their own.
+    /// Drops all that are not retained; programs keep their own.
     pub fn forget(&mut self) {
         self.made.clear();
     }

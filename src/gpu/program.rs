@@ -1,4 +1,4 @@
-//! A plan made ready: pipelines, bind groups, and dispatches in the order in which they are encoded.
+//! A compiled plan: pipelines, bind groups, and dispatches in the order in which they are encoded.
 
 use super::buffers::{Buffers, missing};
 use super::fault;
@@ -8,7 +8,7 @@ use super::submit::Queue;
 use crate::error::Error;
 use crate::kernel::{Access, Pass, Plan};
 
-/// A plan made ready for a device.
+/// A plan compiled for a device.
 pub struct Program {
     ready: Vec<Ready>,
     arguments: Vec<wgpu::Buffer>,
@@ -17,7 +17,7 @@ pub struct Program {
     owners: Vec<Option<usize>>,
 }
 
-/// A pass made ready.
+/// A compiled pass.
 struct Ready {
     pipeline: wgpu::ComputePipeline,
     groups: Vec<(u32, wgpu::BindGroup)>,
@@ -25,7 +25,7 @@ struct Ready {
     work: u64,
 }
 
-/// One dispatch: of what is ready, by its place.
+/// One dispatch of a compiled pass, by its index.
 #[derive(Clone, Copy)]
 pub(super) struct Dispatch {
     ready: usize,
@@ -33,11 +33,11 @@ pub(super) struct Dispatch {
     pub work: u64,
 }
 
-/// How many workgroups there are.
+/// The workgroups of a dispatch.
 #[derive(Clone, Copy)]
 pub(super) enum Workgroups {
     Known([u32; 3]),
-    /// By three words of a buffer of arguments, from this byte on.
+    /// Three words of a buffer of arguments, from this byte on.
     Indirect {
         arguments: usize,
         offset: u64,
@@ -95,13 +95,13 @@ impl Program {
     }
 }
 
-/// A program that is being made.
+/// A program under construction.
 pub(super) struct Builder<'a> {
     pub queue: &'a mut Queue,
     pipelines: &'a mut Pipelines,
     buffers: &'a Buffers,
     program: Program,
-    /// The places of what is ready of each kernel.
+    /// The indices of the compiled passes of each kernel.
     kernels: Vec<Vec<usize>>,
 }
 
@@ -109,7 +109,7 @@ pub(super) struct Builder<'a> {
 pub(super) type Own<'a> = (&'a str, &'a wgpu::Buffer);
 
 impl Builder<'_> {
-    /// Makes a pass ready, and gives its place. Some of its fields may be buffers of its own.
+    /// Compiles a pass, and returns its index. Some of its fields may be bound to other buffers.
     pub fn ready(&mut self, pass: &Pass, own: &[Own<'_>]) -> Result<usize, Error> {
         let pipeline = self.pipelines.get(pass, self.queue.patience())?;
         let device = self.queue.device().clone();
@@ -124,23 +124,23 @@ impl Builder<'_> {
         self.program.ready.push(Ready { pipeline: pipeline.pipeline, groups, workgroups, work: pass.work });
         Ok(self.program.ready.len() - 1)
     }
-    /// The place of a buffer of arguments, from now on.
+    /// Adds a buffer of arguments, and returns its index.
     pub fn arguments(&mut self, buffer: wgpu::Buffer) -> usize {
         self.program.arguments.push(buffer);
         self.program.arguments.len() - 1
     }
-    /// What is ready of a kernel.
+    /// The compiled passes of a kernel.
     pub fn passes(&self, kernel: usize) -> &[usize] {
         self.kernels.get(kernel).map_or(&[], Vec::as_slice)
     }
-    /// How many workgroups something has that is not dispatched indirectly as it is.
+    /// The workgroups of a compiled pass, unless it is dispatched indirectly already.
     pub fn workgroups(&self, ready: usize) -> Option<[u32; 3]> {
         match self.program.ready[ready].workgroups {
             Workgroups::Known(workgroups) => Some(workgroups),
             Workgroups::Indirect { .. } => None,
         }
     }
-    /// Adds a dispatch of what is ready, behind a gate if there is one.
+    /// Adds a dispatch of a compiled pass, controlled by a gate if there is one.
     pub fn dispatch(&mut self, place: usize, gate: Option<&Gate<'_>>) -> Result<(), Error> {
         let (ready, known) = (&self.program.ready[place], self.workgroups(place));
         let workgroups = match (gate, known) {
@@ -154,7 +154,7 @@ impl Builder<'_> {
         self.program.dispatches.push(Dispatch { ready: place, workgroups, work });
         Ok(())
     }
-    /// Adds what an operation dispatches, behind a gate if there is one.
+    /// Adds the dispatches of an operation, controlled by a gate if there is one.
     pub fn encode(&mut self, node: &Node, gate: Option<&Gate<'_>>) -> Result<(), Error> {
         match node {
             Node::Run(passes) => passes.iter().try_for_each(|place| self.dispatch(*place, gate)),

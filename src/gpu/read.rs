@@ -1,5 +1,5 @@
-//! Reading back. A request waits for nothing: it is looked at, or awaited while a thread of its own looks at the device. The only place
-//! that knows futures-intrusive.
+//! Readback. A request does not wait: it is polled, or awaited while a thread of its own polls the device. The only module that uses
+//! futures-intrusive.
 
 use std::future::poll_fn;
 use std::pin::Pin;
@@ -18,29 +18,29 @@ use super::submit::Queue;
 use crate::error::Error;
 use crate::kernel::{Array, Arrival};
 
-/// How long one look at the device may take, before the executor gets its turn.
+/// The maximum duration of one poll of the device, before the executor continues.
 pub const LOOK: Duration = Duration::from_millis(2);
-/// From one look of a thread that watches a request to the next.
+/// The interval between two polls of a thread that watches a request.
 #[cfg(not(target_arch = "wasm32"))]
 const WATCH: Duration = Duration::from_millis(1);
 
-/// Holders of a sender when the device has let go of its own: the request, and the thread that watches it.
+/// The number of owners of a sender after the device has dropped its own: the request, and the thread that watches it.
 #[cfg(not(target_arch = "wasm32"))]
 const ALONE: usize = 2;
 
-/// That a copy is there, or why it will not come.
+/// Whether a copy has arrived, or the reason of its failure.
 type Answer = Result<(), Error>;
 
-/// A copy of part of a buffer that is under way to the host.
+/// A copy of part of a buffer that is being transferred to the host.
 pub struct Request {
     device: wgpu::Device,
-    /// None where nothing is asked for.
+    /// `None` for an empty range.
     stage: Option<wgpu::Buffer>,
-    /// The device sends the answer, or a watch when the time is over. The first one counts.
+    /// The device sends the answer, or a watching thread after a timeout. The first one counts.
     sender: Arc<OneshotSender<Answer>>,
-    /// Never locked: it makes a request one that threads can share.
+    /// Never locked: the mutex only makes a request `Sync`.
     coming: Mutex<Pin<Box<dyn Future<Output = Option<Answer>> + Send>>>,
-    /// What has come while no look was taken.
+    /// An answer that has arrived but was not taken yet.
     answer: Option<Answer>,
     len: u64,
     deadline: Instant,
@@ -48,7 +48,7 @@ pub struct Request {
     watched: bool,
 }
 
-/// Asks for part of a buffer, as it is behind all that was submitted.
+/// Requests part of a buffer, as it is after all submitted work.
 pub fn request(
     device: &wgpu::Device,
     queue: &mut Queue,
@@ -87,10 +87,10 @@ pub fn request(
     queue.submit_commands(commands)?;
     let answer = move |result: Result<(), wgpu::BufferAsyncError>| {
         let unread = |why: wgpu::BufferAsyncError| Error::Lost(format!("a field cannot be read: {why}"));
-        // Where the time was over before, nothing listens any more.
+        // After a timeout nothing listens any more.
         let _ = sender.send(result.map_err(unread));
     };
-    // A device that is lost makes invalid buffers, and says nothing: the first complaint is of their use.
+    // A lost device creates invalid buffers without an error: the first error is that of their use.
     let map = || stage.slice(..).map_async(wgpu::MapMode::Read, answer);
     fault::scoped(device, map)?;
     request.stage = Some(stage);
@@ -98,12 +98,12 @@ pub fn request(
 }
 
 impl Request {
-    /// The bytes, once they are there; waits for them so long at most, and not at all without a time.
+    /// The bytes, once they have arrived; waits for them for at most `time`, and not at all without a time.
     pub fn look(&mut self, time: Option<Duration>) -> Option<Result<Vec<u8>, Error>> {
         if self.stage.is_none() {
             return Some(Ok(Vec::new()));
         }
-        // A browser maps while its own loop runs; elsewhere it must be polled.
+        // A browser maps in its own event loop; elsewhere the device must be polled.
         let device = self.device.clone();
         let looked = wait_until(&device, time.unwrap_or_default(), || {
             self.answer = self.come(Waker::noop());
@@ -119,7 +119,7 @@ impl Request {
             None => None,
         }
     }
-    /// The answer, if it has come; else the task of this waker is woken when it comes.
+    /// The answer, if it has arrived; otherwise the task of this waker is woken when it arrives.
     fn come(&mut self, waker: &Waker) -> Option<Answer> {
         if let Some(answer) = self.answer.take() {
             return Some(answer);
@@ -132,7 +132,7 @@ impl Request {
             Poll::Pending => None,
         }
     }
-    /// Wakes a task once there is something to look at.
+    /// Wakes a task once the answer has arrived.
     fn wake(&mut self, waker: &Waker) {
         self.answer = self.come(waker);
         if self.answer.is_some() {
@@ -147,13 +147,13 @@ impl Request {
     fn watch(&self, _: &Waker) -> bool {
         true
     }
-    /// Looks at the device from a thread, if there can be one, until there is an answer, the time is over, or the request is dropped.
+    /// Polls the device from a thread, if one can be started, until there is an answer, a timeout, or the request is dropped.
     #[cfg(not(target_arch = "wasm32"))]
     fn watch(&self, waker: &Waker) -> bool {
         let (device, sender) = (self.device.clone(), Arc::downgrade(&self.sender));
         let (deadline, patience) = (self.deadline, self.patience);
         let work = move || {
-            // The device lets go of its own when it has answered.
+            // The device drops its own when it has answered.
             while let Some(sender) = sender.upgrade().filter(|sender| Arc::strong_count(sender) > ALONE) {
                 let over = match polled(&device, wgpu::PollType::Poll) {
                     Err(why) => Some(why),
@@ -167,7 +167,7 @@ impl Request {
                 std::thread::sleep(WATCH);
             }
         };
-        // Without a thread the executor asks again and again.
+        // Without a thread the executor polls repeatedly.
         let watched = std::thread::Builder::new().name("read".to_owned()).spawn(work).is_ok();
         if !watched {
             waker.wake_by_ref();
@@ -181,7 +181,7 @@ fn late(patience: Duration) -> Error {
 }
 
 fn copied(stage: &wgpu::Buffer, len: u64) -> Result<Vec<u8>, Error> {
-    // Nothing else has the buffer: it is gone with its device.
+    // The buffer has no other owner: it is invalid because its device is lost.
     let view = stage.slice(..len).get_mapped_range();
     let view = view.map_err(|why| Error::Lost(format!("a field cannot be read: {why}")))?;
     let copy = view.to_vec();
@@ -190,7 +190,7 @@ fn copied(stage: &wgpu::Buffer, len: u64) -> Result<Vec<u8>, Error> {
     Ok(copy)
 }
 
-/// Copies part of a buffer to the host, behind all that was submitted. No poll of it takes much longer than [`LOOK`].
+/// Copies part of a buffer to the host, after all submitted work. No poll takes much longer than [`LOOK`].
 pub async fn bytes(
     device: &wgpu::Device,
     queue: &mut Queue,
@@ -210,14 +210,14 @@ pub async fn bytes(
     .await
 }
 
-/// An array that is on its way.
+/// An array that is being transferred.
 pub struct Incoming {
     request: Request,
     like: Array,
 }
 
 impl Incoming {
-    /// The elements of `like` that a request asks for.
+    /// The elements of the kind of `like` in a request.
     pub fn new(request: Request, like: Array) -> Self {
         Self { request, like }
     }

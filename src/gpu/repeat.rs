@@ -9,28 +9,28 @@ use crate::kernel::{Flag, Kernel, Op};
 /// Bytes of the arguments of one dispatch.
 const EACH: u64 = 12;
 
-/// An operation of which all is ready.
+/// A compiled operation.
 pub(super) enum Node {
-    /// What is ready of a kernel.
+    /// The compiled passes of a kernel.
     Run(Vec<usize>),
     /// A loop.
     Repeat(Repeat),
 }
 
-/// A loop of which all is ready.
+/// A compiled loop.
 pub(super) struct Repeat {
     most: u32,
     body: Vec<Node>,
-    /// The workgroups of what it dispatches, each number of them once.
+    /// The distinct workgroup counts of its dispatches.
     workgroups: Vec<[u32; 3]>,
     /// The arguments of odd iterations, and of even ones.
     arguments: [usize; 2],
-    /// The kernels that let an odd iteration continue, and an even one.
+    /// The kernels that start an odd iteration, and an even one.
     proceed: [usize; 2],
     reset: usize,
 }
 
-/// Where an iteration has its arguments.
+/// The arguments of an iteration.
 pub(super) struct Gate<'a> {
     arguments: usize,
     offset: u64,
@@ -38,7 +38,7 @@ pub(super) struct Gate<'a> {
 }
 
 impl Gate<'_> {
-    /// The arguments of what has so many workgroups if there are any.
+    /// The indirect arguments of a dispatch with these workgroups, if the iteration runs.
     pub fn workgroups(&self, known: [u32; 3]) -> Result<Workgroups, Error> {
         let place = self.workgroups.iter().position(|workgroups| *workgroups == known);
         let place = place.ok_or_else(|| Error::Device(format!("a loop has no arguments for {known:?} workgroups")))?;
@@ -47,7 +47,7 @@ impl Gate<'_> {
 }
 
 impl Repeat {
-    /// Adds all iterations: the first as the loop itself is dispatched, the others each behind the one before it.
+    /// Adds all iterations: the first is dispatched like the loop itself, each of the others depends on the one before it.
     pub fn encode(&self, builder: &mut Builder<'_>, outer: Option<&Gate<'_>>) -> Result<(), Error> {
         for iteration in 0..self.most {
             let parity = usize::from(iteration % 2 == 0);
@@ -64,7 +64,7 @@ impl Repeat {
 }
 
 impl Builder<'_> {
-    /// Makes an operation ready.
+    /// Compiles an operation.
     pub fn node(&mut self, op: &Op) -> Result<Node, Error> {
         match op {
             Op::Run(kernel) => Ok(Node::Run(self.passes(*kernel).to_vec())),
@@ -75,7 +75,7 @@ impl Builder<'_> {
         }
     }
     fn repeat(&mut self, most: u32, until: &Flag, body: Vec<Node>) -> Result<Repeat, Error> {
-        // What lets it continue has one workgroup.
+        // The kernel that starts the next iteration has one workgroup.
         let mut workgroups = vec![[1; 3]];
         self.collect(&body, &mut workgroups);
         let [words, slots] = [3 * u32::try_from(workgroups.len()).unwrap_or(u32::MAX), (most / 2).max(1)];
@@ -97,7 +97,7 @@ impl Builder<'_> {
         let arguments = [self.arguments(odd), self.arguments(even)];
         Ok(Repeat { most, body, workgroups, arguments, proceed, reset })
     }
-    /// The workgroups of all that is dispatched, each number of them once.
+    /// The distinct workgroup counts of all dispatches.
     fn collect(&self, body: &[Node], all: &mut Vec<[u32; 3]>) {
         let add = |place: usize, all: &mut Vec<[u32; 3]>| {
             if let Some(workgroups) = self.workgroups(place).filter(|its| !all.contains(its)) {

@@ -12,7 +12,7 @@ use crate::error::Error;
 pub struct Saved(BTreeMap<String, wgpu::Buffer>);
 
 impl Saved {
-    /// Copies fields as they are behind all that was submitted, in place of the copies that there are.
+    /// Copies fields as they are after all submitted work, and replaces earlier copies.
     pub fn save(
         &mut self,
         device: &wgpu::Device,
@@ -31,7 +31,7 @@ impl Saved {
             match fault::scoped(device, || device.create_buffer(&descriptor)) {
                 Ok(copy) => self.0.insert(name.clone(), copy),
                 Err(why) => {
-                    // Some of the copies are of no use, and take room that is missing.
+                    // An incomplete set of copies is useless, and occupies memory.
                     self.0.clear();
                     return Err(why);
                 }
@@ -39,11 +39,11 @@ impl Saved {
         }
         self.copy(device, queue, buffers, |field, copy| (field, copy))
     }
-    /// Puts the copies back.
+    /// Restores the copies.
     pub fn restore(&self, device: &wgpu::Device, queue: &mut Queue, buffers: &Buffers) -> Result<(), Error> {
         self.copy(device, queue, buffers, |field, copy| (copy, field))
     }
-    /// Copies between fields and their copies, in the direction that `way` gives: from the first to the second.
+    /// Copies between fields and their copies, in the direction given by `way`: from the first to the second.
     fn copy(
         &self,
         device: &wgpu::Device,

@@ -1,4 +1,4 @@
-//! Submissions, cut so that each is short. Where a run is cut changes no bit: all state is in buffers.
+//! Submissions, divided so that each is short. The division changes no bit: all state is in buffers.
 
 use std::collections::VecDeque;
 #[cfg(not(target_arch = "wasm32"))]
@@ -16,20 +16,20 @@ use super::program::{Dispatch, Program};
 use super::read::LOOK;
 use crate::error::Error;
 
-/// Submissions in flight, at most: one that runs, one that waits.
+/// The maximum number of submissions in flight: one that runs, one that waits.
 const IN_FLIGHT: usize = 2;
-/// What a dispatch costs beside its work, in pair evaluations: about 10 µs of a small device.
+/// The cost of a dispatch in addition to its work, in pair evaluations: about 10 µs on a small device.
 const LAUNCH: u64 = 20_000;
-/// The first submission of a device of unknown speed, in pair evaluations: 0.1 s of a slow one.
+/// The work of the first submission to a device of unknown speed, in pair evaluations: 0.1 s on a slow one.
 const FIRST: u64 = 50_000_000;
 
-/// A submission that is on its way, and its work in pair evaluations.
+/// A submission in flight, and its work in pair evaluations.
 struct Flying {
     done: Done,
     work: u64,
 }
 
-/// A queue that knows how fast its device is.
+/// A queue with an estimate of the speed of its device.
 pub struct Queue {
     device: wgpu::Device,
     inner: wgpu::Queue,
@@ -61,7 +61,7 @@ impl Queue {
     pub fn wgpu(&self) -> wgpu::Queue {
         self.inner.clone()
     }
-    /// Takes over what is known of the device.
+    /// Copies the estimate of the device's speed.
     pub fn like(&mut self, other: &Self) {
         (self.target, self.patience, self.budget) = (other.target, other.patience, other.budget);
     }
@@ -69,7 +69,7 @@ impl Queue {
         self.submissions
     }
 
-    /// Runs a program a number of times, in as many submissions as it takes.
+    /// Runs a program a number of times, in as many submissions as necessary.
     pub fn run(&mut self, program: &Program, times: u32) -> Result<(), Error> {
         let mut todo = (0..times).flat_map(|_| &program.dispatches).peekable();
         while todo.peek().is_some() {
@@ -105,7 +105,7 @@ impl Queue {
         Ok(())
     }
 
-    /// Waits for the oldest submission, and learns from the time it took.
+    /// Waits for the oldest submission, and updates the estimate with its duration.
     fn land(&mut self) -> Result<(), Error> {
         let Some(oldest) = self.flying.front() else {
             return Ok(());
@@ -116,12 +116,12 @@ impl Queue {
         self.landed();
         Ok(())
     }
-    /// The oldest submission is done: learns from the time it took.
+    /// The oldest submission is complete: updates the estimate with its duration.
     fn landed(&mut self) {
         let Some(Flying { work, .. }) = self.flying.pop_front() else { return };
         let took = self.last_done.elapsed();
         self.last_done = Instant::now();
-        // Short submissions say nothing of speed, and one slow moment should not cut the next by much.
+        // Short submissions are no measure of speed, and one slow submission should not reduce the next by much.
         if work * 2 > self.budget || took > self.target {
             let factor = (self.target.as_secs_f64() / took.as_secs_f64().max(1e-6)).clamp(0.25, 2.0);
             #[expect(
@@ -142,7 +142,7 @@ impl Queue {
         Ok(())
     }
 
-    /// Waits for all that is in flight, and leaves the executor its turn while that continues.
+    /// Waits for all submissions in flight, and lets the executor continue meanwhile.
     #[cfg(not(target_arch = "wasm32"))]
     pub async fn idle(&mut self) -> Result<(), Error> {
         let mut deadline = Instant::now() + self.patience;
@@ -162,7 +162,7 @@ impl Queue {
         })
         .await
     }
-    /// A browser says when a submission is done.
+    /// A browser reports when a submission is complete.
     #[cfg(target_arch = "wasm32")]
     pub async fn idle(&mut self) -> Result<(), Error> {
         while let Some(next) = self.flying.front() {
@@ -183,15 +183,15 @@ impl Queue {
         self.patience
     }
 
-    /// Submits a caller's commands behind all that is in flight.
+    /// Submits a caller's commands after all submissions in flight.
     pub fn submit_commands(&mut self, commands: wgpu::CommandBuffer) -> Result<wgpu::SubmissionIndex, Error> {
         fault::scoped(&self.device, || self.inner.submit([commands]))
     }
-    /// The device behind it.
+    /// The device of the queue.
     pub fn device(&self) -> &wgpu::Device {
         &self.device
     }
-    /// Makes a uniform block. It is not mapped at its creation: on a device that is lost, that would be a panic.
+    /// Creates a uniform block. It is not mapped at its creation: on a lost device that would panic.
     pub fn uniform(&mut self, name: &str, bytes: &[u8]) -> Result<wgpu::Buffer, Error> {
         let usage = wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST;
         let size = (bytes.len() as u64).next_multiple_of(16);
@@ -202,7 +202,7 @@ impl Queue {
             buffer
         })
     }
-    /// Writes into a buffer, behind all that was submitted.
+    /// Writes into a buffer, after all submitted work.
     pub fn write(&mut self, buffer: &wgpu::Buffer, from: u64, bytes: &[u8]) -> Result<(), Error> {
         fault::scoped(&self.device, || {
             self.inner.write_buffer(buffer, from, bytes);

@@ -8,8 +8,8 @@ use crate::error::Error;
 /// Passes that are timed in one submission, at most: a query set has no more than 4096 entries.
 const PASSES: usize = 1024;
 
-/// Runs a program a number of times in one submission, and gives the seconds that took by the device's clock; `None`
-/// when the device was opened without timestamps.
+/// Runs a program a number of times in one submission, and returns the seconds that it took by the device's clock; `None` when the device
+/// was opened without timestamps.
 pub async fn timed(
     device: &wgpu::Device,
     queue: &mut Queue,

@@ -1,15 +1,15 @@
-//! Adaptive time steps. A method that is symplectic with a fixed step is not with adaptive steps: energy that it keeps
-//! in bounds may drift (Skeel & Gear 1992).
+//! Adaptive time steps. A method that is symplectic with a fixed step is not symplectic with adaptive steps: its energy error, which would
+//! stay bounded, may drift (Skeel & Gear 1992).
 
 use super::{Integrator, Step};
 use crate::kernel::{AdaptiveStep, Column};
 
-/// Another integrator, in steps as long as forces allow.
+/// Another integrator, with steps as long as forces allow.
 #[derive(Clone)]
 pub struct Adaptive {
-    /// What makes a step; an explicit method.
+    /// The method, which must be explicit.
     pub integrator: Box<dyn Integrator>,
-    /// How long.
+    /// The limits of the time step.
     pub adaptive_step: AdaptiveStep,
 }
 

@@ -1,5 +1,5 @@
-//! Backward Euler: v ← v + a(x, v) dt, x ← x + v dt, both with the new state. Damps what it cannot follow, at any step. Laws
-//! without a Jacobian are evaluated where the step begins, as by symplectic Euler (Ascher, Ruuth & Wetton 1995).
+//! Backward Euler: v ← v + a(x, v) dt, x ← x + v dt, both with the new state. Damps modes that it cannot resolve, at any step. Laws without
+//! a Jacobian are evaluated at the start of the step, as by symplectic Euler (Ascher, Ruuth & Wetton 1995).
 
 use super::{Explicit, Form, Implicit, Integrator, Step};
 

@@ -1,6 +1,6 @@
-//! Beeman's method (Beeman 1976): the positions are those of leapfrog, and the velocities, by the accelerations of three times,
-//! are of one order more. x ← x + v dt + (4 a − a') dt² / 6, v ← v + (2 a(x) + 5 a − a') dt / 6, with a' of the step before.
-//! A particle in its first step has none, and uses a instead, which is leapfrog.
+//! Beeman's method (Beeman 1976): the positions are those of leapfrog, and the velocities, which use accelerations at three times, are one
+//! order more accurate. x ← x + v dt + (4 a − a') dt² / 6, v ← v + (2 a(x) + 5 a − a') dt / 6, with a' of the previous step. A particle in
+//! its first step has no a', and uses a instead, which is leapfrog.
 
 use std::sync::Arc;
 
@@ -12,7 +12,7 @@ use crate::kernel::{ACCELERATION, Column, Field, Host, Kernel, Kind, Shader, VEL
 #[derive(Clone)]
 pub struct Beeman;
 
-/// The acceleration at the start of the step before. xyz
+/// The acceleration at the start of the previous step. xyz
 const EARLIER: Field<glam::Vec4> = Field::new("earlier_acceleration");
 
 impl Integrator for Beeman {

@@ -17,7 +17,7 @@ impl Integrator for ImplicitMidpoint {
     fn is_symplectic(&self) -> bool {
         true
     }
-    /// Of laws that offer their Jacobian; it is 1 for others.
+    /// For laws with a Jacobian; it is 1 for others.
     fn order_with_velocity(&self) -> u32 {
         2
     }

@@ -1,4 +1,4 @@
-//! Backward Euler by one linear solve, of forces expanded about the start of the step (Baraff & Witkin 1998).
+//! Backward Euler by one linear solve, of forces linearized about the start of the step (Baraff & Witkin 1998).
 
 use super::{Explicit, Form, Implicit, Integrator, Step};
 

@@ -1,4 +1,4 @@
-//! The implicit midpoint rule by one linear solve, of forces expanded about the start of the step.
+//! The implicit midpoint rule by one linear solve, of forces linearized about the start of the step.
 
 use super::{Explicit, Form, Implicit, Integrator, Step};
 
@@ -13,7 +13,7 @@ impl Integrator for LinearImplicitMidpoint {
     fn order(&self) -> u32 {
         2
     }
-    /// Of laws that offer their Jacobian; it is 1 for others.
+    /// For laws with a Jacobian; it is 1 for others.
     fn order_with_velocity(&self) -> u32 {
         2
     }

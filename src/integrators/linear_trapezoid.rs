@@ -1,4 +1,4 @@
-//! The trapezoid rule by one linear solve, of forces expanded about the middle of the step.
+//! The trapezoid rule by one linear solve, of forces linearized about the middle of the step.
 
 use super::{Explicit, Form, Implicit, Integrator, Step};
 
@@ -13,7 +13,7 @@ impl Integrator for LinearTrapezoid {
     fn order(&self) -> u32 {
         2
     }
-    /// Of laws that offer their Jacobian; it is 1 for others.
+    /// For laws with a Jacobian; it is 1 for others.
     fn order_with_velocity(&self) -> u32 {
         2
     }

@@ -1,4 +1,4 @@
-//! The midpoint rule (Runge 1895), a Runge–Kutta method of order 2: the slope in the middle of the step serves for all of it.
+//! The midpoint rule (Runge 1895), a Runge–Kutta method of order 2: the slope in the middle of the step is used for all of it.
 
 use super::{Integrator, Step};
 

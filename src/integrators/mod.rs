@@ -16,9 +16,9 @@ pub use verbs::solve::report::{NAME as SOLVE_REPORT, WORDS as SOLVE_REPORT_WORDS
 use crate::kernel::{AdaptiveStep, Column};
 use crate::settings::{Key, Settings};
 
-/// How particles are advanced by one step.
+/// A method that advances particles by one step.
 pub trait Integrator: Copied + Send + Sync {
-    /// Its name in messages: the scene's word for it, where scenes have one.
+    /// Its name in messages: that of scenes, if it has one.
     fn name(&self) -> &'static str {
         "the integrator"
     }
@@ -28,7 +28,7 @@ pub trait Integrator: Copied + Send + Sync {
     fn order_with_velocity(&self) -> u32 {
         1
     }
-    /// Whether laws that offer their Jacobian are solved for.
+    /// Whether it solves implicitly for laws with a Jacobian.
     fn is_implicit(&self) -> bool {
         false
     }
@@ -40,20 +40,20 @@ pub trait Integrator: Copied + Send + Sync {
     fn damps_at_any_step(&self) -> bool {
         false
     }
-    /// Why it requires a fixed time step, if it does.
+    /// The reason for requiring a fixed time step, if it does.
     fn fixed_step(&self) -> Option<&'static str> {
         self.is_implicit()
             .then_some("their time step limits are those of explicit methods, and the integrator is implicit")
     }
-    /// How long its steps are, where they are not all alike.
+    /// The limits of its time step, where steps are adaptive.
     fn adaptive_step(&self) -> Option<AdaptiveStep> {
         None
     }
-    /// The same method in steps that are all alike.
+    /// The same method with a fixed step.
     fn in_fixed_steps(&self) -> Box<dyn Integrator> {
         self.copied()
     }
-    /// The columns that it keeps beside those of all simulations: what a step leaves to the next.
+    /// The columns that it needs in addition to those of all simulations: the data that a step passes to the next.
     fn columns(&self) -> Vec<Column> {
         Vec::new()
     }
@@ -64,7 +64,7 @@ pub trait Integrator: Copied + Send + Sync {
 }
 
 #[doc(hidden)]
-/// What makes a copy of an integrator in a box; whatever is `Clone` has it.
+/// Copying of a boxed integrator; implemented for everything that is `Clone`.
 pub trait Copied {
     /// The copy.
     fn copied(&self) -> Box<dyn Integrator>;
@@ -85,18 +85,18 @@ impl Clone for Box<dyn Integrator> {
 #[doc(hidden)]
 /// A line of the register.
 pub struct Entry {
-    /// The scene's word for it.
+    /// Its name in scenes.
     pub name: &'static str,
     /// One line for a list.
     pub about: &'static str,
-    /// What a scene may say to it, in `[simulation]`.
+    /// Its settings, in `[simulation]`.
     pub keys: &'static [Key],
-    /// Makes one, from checked settings of these keys.
+    /// Builds one, from checked settings of these keys.
     pub build: fn(&Settings) -> Box<dyn Integrator>,
 }
 
 impl Entry {
-    /// Makes one with the defaults of its keys.
+    /// Builds one with the defaults of its keys.
     #[must_use]
     pub fn by_default(&self) -> Box<dyn Integrator> {
         (self.build)(&Settings::defaults(self.keys))
@@ -140,7 +140,7 @@ register! {
 }
 
 #[doc(hidden)]
-/// The integrator of a scene's word.
+/// The integrator of a name in scenes.
 #[must_use]
 pub fn entry(name: &str) -> Option<&'static Entry> {
     INTEGRATORS.iter().find(|e| e.name == name)

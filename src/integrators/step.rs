@@ -15,7 +15,7 @@ use crate::error::Error;
 use crate::forces::{Component, Problem, Stage};
 use crate::kernel::{Kernel, Plan};
 
-/// Writes a plan in verbs. The first error is kept and given at the end, so that an integrator reads like its textbook.
+/// Writes a plan in verbs. The first error is kept and returned at the end, so that an integrator reads like its formula in a textbook.
 pub struct Step<'a> {
     forces: &'a [Box<dyn Component>],
     problem: Problem,
@@ -23,13 +23,13 @@ pub struct Step<'a> {
     evaluated: bool,
     /// Whether positions have changed since neighbours were found.
     moved: bool,
-    /// How much of the step positions have been advanced by.
+    /// The part of the step by which positions have been advanced.
     drifted: f64,
-    /// A kick that a drift may follow: the two are one dispatch then.
+    /// A kick that is not written yet: with a following drift it becomes one dispatch.
     kicked: Option<f64>,
-    /// Whether every kernel stays alone.
+    /// Whether kernels are never merged.
     apart: bool,
-    /// Whether slopes are wanted, for the stages of a Runge–Kutta step.
+    /// Whether slopes are needed, for the stages of a Runge–Kutta step.
     staged: bool,
     error: Option<Error>,
 }
@@ -55,7 +55,7 @@ impl<'a> Step<'a> {
     /// a ← forces(x, v, t), with all laws in the order of the scene.
     pub fn evaluate(&mut self) {
         let mut laws = self.laws(|_| true);
-        // The first law need not add to what has been cleared.
+        // The first law can set the sums that would be cleared.
         if self.apart || !laws.first_mut().is_some_and(clear::with) {
             self.add(clear::kernel(self.problem.capacity));
         }
@@ -65,21 +65,21 @@ impl<'a> Step<'a> {
             self.carried_rates();
         }
     }
-    /// From here on every kernel is a dispatch of its own: to see what it is worth to join them.
+    /// From here on kernels are not merged: used to measure the gain of merging.
     pub fn apart(&mut self) {
         self.apart = true;
     }
-    /// No acceleration yet, and no other sum.
+    /// Sets accelerations and other sums to zero.
     fn clear(&mut self) {
         self.add(clear::kernel(self.problem.capacity));
         self.clear_sums(false);
     }
-    /// Adds what some of the forces say, chosen by their places.
+    /// Adds the kernels of some forces, chosen by index.
     fn gather(&mut self, chosen: impl Fn(usize) -> bool) {
         let laws = self.laws(chosen);
         self.add_laws(laws);
     }
-    /// The kernels of the laws of some forces, behind the grids that they search.
+    /// The kernels of the laws of some forces, after the grids that they search.
     fn laws(&mut self, chosen: impl Fn(usize) -> bool) -> Plan {
         self.flush();
         self.evaluated = true;
@@ -98,13 +98,13 @@ impl<'a> Step<'a> {
         }
         laws
     }
-    /// How many components of the kind of one are before it: two of one kind are two kernels.
+    /// The number of components of the same kind before a component: two of one kind have separate kernels.
     fn earlier(&self, place: usize) -> usize {
         let name = |force: &dyn Component| force.laws().first().map(|law| law.name.clone());
         let its = name(self.forces[place].as_ref());
         self.forces[..place].iter().filter(|other| name(other.as_ref()) == its).count()
     }
-    /// Adds the kernels of laws, after which fixed particles have no acceleration.
+    /// Adds the kernels of laws, after which the accelerations of fixed particles are set to zero.
     fn add_laws(&mut self, laws: Plan) {
         self.append(laws);
         if !self.problem.held.is_empty() {
@@ -114,7 +114,7 @@ impl<'a> Step<'a> {
             self.add_all(life::still(&self.problem));
         }
     }
-    /// Fixed particles get the velocity that brings them to their place at the end of the step.
+    /// Sets the velocities of fixed and kinematic particles such that they reach their positions at the end of the step.
     pub fn lead(&mut self) {
         self.add_all(held::lead(&self.problem));
     }
@@ -123,11 +123,11 @@ impl<'a> Step<'a> {
         self.moved |= self.problem.has_inactive;
         self.add_all(life::kernels(&self.problem));
     }
-    /// What forces do at the start of a step.
+    /// Adds the kernels of forces at the start of a step.
     pub fn open(&mut self) {
         self.each(Stage::StartOfStep);
     }
-    /// What forces do once, before the first step.
+    /// Adds the kernels of forces before the first step.
     pub fn begin(&mut self) {
         self.each(Stage::Start);
     }
@@ -138,15 +138,15 @@ impl<'a> Step<'a> {
         self.kicked = Some(factor);
         self.limit();
     }
-    /// A kick by a kernel of the integrator's own, which changes velocities, within the limits of speed; other columns whose rates
-    /// evaluations compute continue by a part of the step.
+    /// A kick by a kernel of the integrator, which changes velocities, within the limits of speed; other columns whose rates are computed
+    /// by evaluations are advanced by a part of the step.
     pub fn kick_by(&mut self, kernel: Result<Kernel, Error>, factor: f64) {
         self.kick_pairs(factor);
         self.add(kernel);
         self.limit();
     }
-    /// x ← x + c v dt, and back into the box, and every column whose rate is a state; what is carried along, by its rate in the
-    /// middle of the way
+    /// x ← x + c v dt, and back into the box, and every column whose rate is a state; carried columns by their rates in the middle of the
+    /// drift
     pub fn drift(&mut self, factor: f64) {
         if self.carries() {
             self.drift_carrying(factor);
@@ -166,7 +166,7 @@ impl<'a> Step<'a> {
             None => self.add(drift::kernel(count, factor)),
         }
     }
-    /// Particles that left the box by a closed side come in again.
+    /// Particles that left the box through a periodic or reflecting side are put back.
     pub fn enclose(&mut self) {
         self.moved = true;
         self.add_all(boundary::kernels(&self.problem));
@@ -179,7 +179,7 @@ impl<'a> Step<'a> {
         };
         self.add(kernel);
     }
-    /// Keeps where the step starts, x₀ and v₀, and every column that is advanced.
+    /// Saves the start of the step, x₀ and v₀, and every column that is advanced.
     pub fn save(&mut self) {
         self.staged = true;
         self.add(runge_kutta::save(self.problem.capacity));
@@ -193,8 +193,8 @@ impl<'a> Step<'a> {
         self.add(runge_kutta::stage(self.problem.capacity, weight, factor));
         self.stage_pairs(false, weight, factor);
     }
-    /// Adds the last slopes with `weight`, and goes from x₀, v₀ the whole step with the weighted sum, and back into the
-    /// box. Stages may leave it: forces see the nearest images from there too.
+    /// Adds the last slopes with `weight`, advances from x₀, v₀ by the whole step with the weighted sum, and puts particles back into the
+    /// box. Stages may leave it: forces use the nearest images there too.
     pub fn finish(&mut self, weight: f64) {
         self.staged = false;
         self.slopes();
@@ -208,19 +208,19 @@ impl<'a> Step<'a> {
         self.each(Stage::AfterAdvance { factor: 1.0 });
     }
 
-    /// What forces make of positions that are not allowed, after an advance by a part of the step.
+    /// Constrains positions, after an advance by a part of the step.
     fn confine(&mut self, factor: f64) {
         self.problem.reached = self.drifted;
         self.each(Stage::AfterDrift { factor });
     }
-    /// What forces make of velocities that are not allowed.
+    /// Constrains velocities.
     fn limit(&mut self) {
         self.each(Stage::AfterKick);
     }
-    /// What all components do at a stage.
+    /// Adds the kernels of all components at a stage.
     fn each(&mut self, stage: Stage) {
         let mut plan = Plan::default();
-        // Rods have the last word, wherever a scene names them: what moves one end after them stretches them.
+        // Rods come last, wherever they are in a scene: a later change of one end would stretch them.
         let (rods, others): (Vec<_>, Vec<_>) = self.forces.iter().partition(|force| force.properties().keeps_rods);
         for force in others.into_iter().chain(rods) {
             if self.error.is_none() {
@@ -229,7 +229,7 @@ impl<'a> Step<'a> {
         }
         self.append(plan);
     }
-    /// A kick that no drift has taken up is a dispatch of its own.
+    /// A kick without a following drift is a dispatch of its own.
     fn flush(&mut self) {
         if let Some(factor) = self.kicked.take() {
             self.add(kick::kernel(self.problem.capacity, factor));
@@ -254,7 +254,7 @@ impl<'a> Step<'a> {
     pub fn count(&self) -> u32 {
         self.problem.capacity
     }
-    /// Adds a kernel of the integrator's own. An error is given at the end.
+    /// Adds a kernel of the integrator. An error is returned at the end.
     pub fn add(&mut self, kernel: Result<Kernel, Error>) {
         self.flush();
         match kernel {

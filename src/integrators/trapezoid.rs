@@ -13,7 +13,7 @@ impl Integrator for Trapezoid {
     fn order(&self) -> u32 {
         2
     }
-    /// Of laws that offer their Jacobian; it is 1 for others.
+    /// For laws with a Jacobian; it is 1 for others.
     fn order_with_velocity(&self) -> u32 {
         2
     }

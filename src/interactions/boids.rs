@@ -33,7 +33,7 @@ pub const KEYS: &[Key] = &[
 #[derive(Clone)]
 pub struct Boids(Settings);
 
-/// What one sees of the others.
+/// The sums over the neighbours of a particle.
 #[derive(Default)]
 struct Seen {
     separation: DVec3,
@@ -120,7 +120,7 @@ impl Component for Boids {
     }
 }
 
-/// Whether the way r lies within the angle of view round the velocity, by the device's own arithmetic.
+/// Whether the direction r is within the angle of view around the velocity, by the device's own arithmetic.
 fn in_view(velocity: DVec3, r: DVec3, cosine: f64) -> bool {
     #[expect(clippy::cast_possible_truncation, reason = "as the device holds it")]
     let (v, r, cosine): (Vec3, Vec3, f32) = (velocity.as_vec3(), r.as_vec3(), cosine as f32);

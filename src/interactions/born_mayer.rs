@@ -19,7 +19,7 @@ pub const KEYS: &[Key] = &[
     SKIN,
 ];
 
-/// What a scene may say of a pair of species.
+/// The coefficients of a pair of species.
 const COEFFICIENTS: &[Key] = &[
     Key::required("repulsion", Kind::NotNegative, "A of A exp(−r / ρ) [energy]"),
     Key::required("decay", Kind::Positive, "ρ of A exp(−r / ρ) [length]"),
@@ -103,13 +103,13 @@ impl Component for BornMayer {
     fn laws(&self) -> Vec<Law> {
         let [range, constant, damping] = ["range", "coulomb", "damping"].map(|name| self.0.number(name));
         let end = coulomb(damping, range);
-        // What a charge has of itself: the limit of the damped and shifted energy less 1 / r, where r goes to 0.
+        // The self-energy of a charge: the limit of the damped and shifted energy less 1 / r, for r → 0.
         let own = constant * (range * end.slope - end.value - 2.0 * damping / PI.sqrt());
         let mut values = params(&self.0, &["coulomb", "damping", "range"]);
         for (name, value) in [("end_value", end.value), ("end_slope", end.slope), ("own", own)] {
             values.push((name.to_owned(), Scalar::Float(value)));
         }
-        // What each pair of species has at the range.
+        // The values of each pair of species at the range.
         let pairs = self.0.pairs("pairs");
         let mut table = PairTable::from(pairs);
         for (row, pair) in table.rows.iter_mut().zip(pairs) {

@@ -29,14 +29,14 @@ pub const KEYS: &[Key] = &[
 #[derive(Clone)]
 pub struct Contact(Settings);
 
-/// What a particle gets of all its contacts.
+/// The sums over the contacts of a particle.
 #[derive(Debug, Default)]
 struct Sum {
     force: DVec3,
     torque: DVec3,
 }
 
-/// What contacts are made of.
+/// The parameters of contacts.
 #[derive(Debug, Clone, Copy)]
 struct Material {
     stiffness: f64,
@@ -106,7 +106,7 @@ impl Material {
         let spin = |particle: &Particle| particle.vector("angular_velocity").unwrap_or_default().truncate();
         let distance = r.length();
         let overlap = radius(me) + radius(you) - distance;
-        // Two at one place have no direction between them.
+        // Two particles at the same position have no direction between them.
         if overlap <= 0.0 || distance <= 0.0 {
             return;
         }

@@ -22,7 +22,7 @@ use crate::kernel::{ACCELERATION, Host, Kernel, POSITION, Pass, Problem, Shader,
 
 /// P(v) = Σ c vⁿ: (1 − v)^(−1/2) to second order, and beyond that fitted.
 const TAPER: [f64; 9] = [1.0, 0.5, 0.375, 0.296_344, 0.309_035, 0.003_588, 0.434_914, -0.227_071, 0.161_508];
-/// Waves have |k|² up to this, in turns per side.
+/// The maximum |k|² of waves, in periods per side.
 const SHELLS: i32 = 14;
 /// Blocks into which particles are cut for a structure factor: enough to keep a device busy, and few to add.
 const BLOCKS: u32 = 512;
@@ -108,7 +108,7 @@ pub fn waves() -> Vec<DVec4> {
 pub fn fits(problem: &Problem, softening: f64) -> Result<(), Error> {
     let bounds = &problem.bounds;
     let period = bounds.period();
-    // Sides as f32 knows them.
+    // Sides in single precision, as on the device.
     let even = (period - DVec3::splat(period.x)).abs().max_element() <= f64::from(f32::EPSILON) * period.x;
     if bounds.dimensions == 3 && bounds.sides == [Side::Periodic; 3] && even {
         // The law between two ends at half a side, and the waves know of no softening.
@@ -204,7 +204,7 @@ fn add_up(waves: &[DVec4], host: &Host) -> Result<(), Error> {
     Ok(())
 }
 
-/// What the waves do to each particle.
+/// Adds the accelerations by waves to each particle.
 fn add_waves(g: f64, alone: f64, waves: &[DVec4], host: &Host) -> Result<(), Error> {
     let (position, structure) = (host.read(POSITION)?, host.reading::<f32>("structure")?);
     let frequency = host.world().bounds.frequency();

@@ -54,7 +54,7 @@ impl Fluid {
     pub fn new(settings: &Settings) -> Self {
         Self(settings.clone())
     }
-    /// What flows, in the box of a problem.
+    /// The fluid in the box of a problem.
     ///
     /// # Errors
     /// [`Error::Setting`] when there is no such fluid.
@@ -122,7 +122,7 @@ impl Fluid {
     fn wall_mass(&self) -> WallMass {
         if self.0.text("wall_mass") == "lattice" { WallMass::Lattice } else { WallMass::Sampled }
     }
-    /// How density follows the fluid, where it is a state.
+    /// The options of the density, where it is a state.
     fn continuity(&self) -> Result<Option<Continuity>, Error> {
         let diffusion = self.0.number("diffusion");
         if self.solves() && (self.0.text("density_by") == "continuity" || self.0.text("walls") == "extrapolate") {
@@ -226,7 +226,7 @@ impl Fluid {
         let medium = self.medium(&problem.bounds)?;
         let (friction, solves) = (self.friction(), self.solves());
         let (xsph, tension) = (self.0.number("xsph"), self.tension());
-        // Where pressure is solved for, sound and with it the pressure of a state are none: friction and tension are left.
+        // Where pressure is solved for, there is neither sound nor a pressure by an equation of state: friction and tension remain.
         if !solves || friction.viscosity > 0.0 || xsph > 0.0 || tension.is_some() {
             if self.continuity()?.is_none() {
                 plan.add(sph::density(&medium, problem)?.kernel(problem)?);

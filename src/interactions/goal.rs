@@ -17,7 +17,7 @@ pub const KEYS: &[Key] = &[
     EACH,
 ];
 
-/// `goal`: steers to a place, and slows down on arrival (Reynolds 1999). An `attractor` pulls, and lets pass by.
+/// `goal`: steers to a point, and slows down on arrival (Reynolds 1999). An `attractor` pulls without slowing particles down.
 #[derive(Clone)]
 pub struct Goal(Settings);
 

@@ -34,7 +34,7 @@ impl Gravity {
     pub fn new(settings: &Settings) -> Self {
         Self(settings.clone())
     }
-    /// Which pairs are evaluated, where groups nearer than `core` must not be taken as one.
+    /// The visit, where groups nearer than `core` must not be approximated.
     fn over(&self, core: f64) -> Over {
         let (theta, alpha, g) = (self.0.number("theta"), self.0.number("alpha"), self.0.number("g"));
         let opening = if alpha > 0.0 {

@@ -24,7 +24,7 @@ pub const KEYS: &[Key] = &[
 ];
 
 const SHAPES: &[&str] = &["sphere", "box", "plane"];
-/// How often the way ahead is sampled; a way that only grazes is then a little shorter than it is.
+/// The number of samples of the path ahead; a path that only grazes an obstacle appears slightly shorter.
 const MARCHES: usize = 8;
 
 /// `obstacle`: steers round a sphere, a box or a plane that lies ahead, along the normal of where one would touch it (after

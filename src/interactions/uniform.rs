@@ -1,4 +1,4 @@
-//! The same acceleration everywhere.
+//! A uniform acceleration.
 
 use glam::DVec3;
 

@@ -52,7 +52,7 @@ impl Gusts {
     fn phase(&self, x: DVec3, time: f64) -> f64 {
         TAU * (time / self.period - x.dot(self.mean.normalize_or_zero()) / self.wavelength).fract()
     }
-    /// How the air moves somewhere \[length / time\].
+    /// The velocity of the air at a position \[length / time\].
     pub fn air(&self, x: DVec3, time: f64) -> DVec3 {
         self.mean * (1.0 + self.strength * self.phase(x, time).sin())
     }

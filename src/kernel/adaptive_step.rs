@@ -1,5 +1,5 @@
-//! How long steps are, where they are not all alike. Such a clock counts in whole ticks, 2²⁴ in the longest step: sums of
-//! them are exact, so that nothing is lost between the first step and the last, and an end time is reached to the tick.
+//! Adaptive time steps. The clock counts in whole ticks, 2²⁴ in the longest step: sums of them are exact, so that no rounding error
+//! accumulates over a run, and an end time is reached to the tick.
 
 use super::{Field, Host, Problem, Source};
 use crate::error::Error;
@@ -7,12 +7,12 @@ use crate::error::Error;
 /// Steps as short as forces require, and no longer than `dt`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct AdaptiveStep {
-    /// The shortest step \[time\]: where forces require less, a run ends.
+    /// The shortest step \[time\]: a run ends where forces require a shorter one.
     pub least: f64,
-    /// The Courant number C, a part of every limit that forces offer.
+    /// The Courant number C, a factor of every dt criterion of forces.
     pub courant: f64,
-    /// The length of the step before the first, after which steps grow by a fifth at most \[time\]; none: the first may be
-    /// as long as forces allow.
+    /// The length of the step before the first, after which steps grow by a fifth at most \[time\]; `None`: the first is limited by forces
+    /// alone.
     pub before: Option<f64>,
 }
 
@@ -21,34 +21,33 @@ pub const TICKS: u32 = 1 << 24;
 /// The shortest step, as a part of the longest, at least: ticks must distinguish steps.
 const LEAST_PART: f64 = 1e-6;
 
-/// The clock, word by word: 0 and 1: the time in longest steps and ticks; 2: the ticks of the step at hand, 0 where a run
-/// rests; 3: those of the last that nothing but forces and growth has shortened; 4: the reason, a [`Reason`]; 5: the limiting
-/// particle, the lowest id of those whose criterion gave it. 6 to 9: the first step that should have been shorter than the
-/// shortest, its reason, its particle, and how many of it would have made a longest step, as the bits of an `f32`;
-/// [`u32::MAX`] while there is none. 10 and 11: the ticks of the shortest and of the longest step so far; from 12 on how many
-/// steps had each reason.
+/// The clock, word by word: 0 and 1: the time in longest steps and ticks; 2: the ticks of the current step, 0 where the run has stopped; 3:
+/// those of the last step that was limited only by forces and growth; 4: the reason, a [`Reason`]; 5: the limiting particle, the lowest id
+/// of those whose criterion gave it. 6 to 9: the first step that should have been shorter than the shortest, its reason, its particle, and
+/// the number of such steps in a longest one, as the bits of an `f32`; [`u32::MAX`] while there is none. 10 and 11: the ticks of the
+/// shortest and of the longest step so far; from 12 on the number of steps with each reason.
 pub const STEP_CLOCK: Field<u32> = Field::new("step_clock");
 /// The words of the clock.
 pub const STEP_CLOCK_WORDS: usize = 12 + Reason::ALL.len();
-/// Where the clock stops, in longest steps and ticks.
+/// The time at which the clock stops, in longest steps and ticks.
 pub const STOP: Field<u32> = Field::new("step_clock_stop");
-/// The dt criteria: how many steps each particle would have in a longest one, were it alone: for acceleration, signal and speed.
+/// The dt criteria: the number of steps per longest step that each particle requires, for acceleration, signal and speed.
 pub const STEP_CRITERIA: Field<glam::Vec4> = Field::new("step_criteria");
 /// The largest of [`STEP_CRITERIA`].
 pub const LARGEST_CRITERION: Field<glam::Vec4> = Field::new("largest_criterion");
 
-/// Why a step has its length.
+/// The reason for the length of a step.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Reason {
     /// It is the longest that is allowed.
     Longest,
-    /// An acceleration.
+    /// The acceleration criterion.
     Acceleration,
-    /// Sound, and how fast particles come together.
+    /// The signal criterion: the speed of sound, and the speed at which particles approach.
     Signal,
-    /// Viscosity.
+    /// The viscosity criterion.
     Viscosity,
-    /// A speed.
+    /// The speed criterion.
     Speed,
     /// The step before it was shorter.
     Growth,
@@ -57,7 +56,7 @@ pub enum Reason {
 }
 
 impl Reason {
-    /// All of them, in the order of their numbers on a device.
+    /// All reasons, in the order of their numbers on a device.
     pub const ALL: [Self; 7] =
         [Self::Longest, Self::Acceleration, Self::Signal, Self::Viscosity, Self::Speed, Self::Growth, Self::Stop];
     /// The reason of a number.
@@ -65,7 +64,7 @@ impl Reason {
     pub fn of(number: u32) -> Self {
         Self::ALL.get(number as usize).copied().unwrap_or(Self::Longest)
     }
-    /// One word for a table.
+    /// Its name, one word, for tables.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -87,7 +86,7 @@ pub fn ticks(time: f64, dt: f64) -> u32 {
     (time / dt * f64::from(TICKS)).round().clamp(0.0, f64::from(u32::MAX)) as u32
 }
 
-/// A time as a clock of steps of `dt` has it: longest steps, and ticks.
+/// A time in longest steps of `dt`, and ticks.
 #[must_use]
 #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "clamped to what 32 bits hold")]
 pub fn split(time: f64, dt: f64) -> [u32; 2] {
@@ -100,10 +99,10 @@ pub fn split(time: f64, dt: f64) -> [u32; 2] {
 }
 
 impl AdaptiveStep {
-    /// Whether there can be such steps, none longer than `dt`.
+    /// Checks whether such steps, none longer than `dt`, are possible.
     ///
     /// # Errors
-    /// [`Error::Scene`] with the number that makes no sense.
+    /// [`Error::Scene`] with the invalid number.
     pub fn check(&self, dt: f64) -> Result<(), Error> {
         let Self { least, courant, before } = *self;
         if !(LEAST_PART * dt..=dt).contains(&least) {
@@ -124,7 +123,7 @@ impl AdaptiveStep {
         }
         Ok(())
     }
-    /// The words of a clock that stands at zero.
+    /// The words of a clock at time zero.
     #[must_use]
     pub fn start(&self, dt: f64) -> Vec<u32> {
         let mut words = vec![0; STEP_CLOCK_WORDS];
@@ -136,10 +135,10 @@ impl AdaptiveStep {
     }
 }
 
-/// The time after a part of the step, as a reference has it.
+/// The time after a part of the step, for a reference.
 ///
 /// # Errors
-/// When a clock is asked that is not there.
+/// When there is no clock.
 pub fn time(host: &Host, problem: &Problem, part: f64) -> Result<f64, Error> {
     let world = host.world();
     if problem.adaptive_step.is_none() {
@@ -150,12 +149,12 @@ pub fn time(host: &Host, problem: &Problem, part: f64) -> Result<f64, Error> {
 }
 
 impl Problem {
-    /// The same in such steps.
+    /// The same problem with adaptive steps.
     #[must_use]
     pub fn adapted(self, adaptive_step: Option<AdaptiveStep>) -> Self {
         Self { adaptive_step, ..self }
     }
-    /// The file that says to motions how late it is.
+    /// The file that gives motions the time after a part of the step.
     #[must_use]
     pub fn clock(&self) -> Source {
         if self.adaptive_step.is_some() {
@@ -164,12 +163,12 @@ impl Problem {
             crate::shader!("motion/even.wgsl")
         }
     }
-    /// What goes with it.
+    /// The constants of that file.
     #[must_use]
     pub fn clock_constants(&self) -> Vec<(&'static str, f64)> {
         if self.adaptive_step.is_some() { vec![("UNIT", self.dt)] } else { Vec::new() }
     }
-    /// The clock's elements, where there is one.
+    /// The number of elements of the clock, where there is one.
     #[must_use]
     pub fn clock_sizes(&self) -> Vec<(super::Name, u64)> {
         if self.adaptive_step.is_some() { vec![(STEP_CLOCK.name.into(), STEP_CLOCK_WORDS as u64)] } else { Vec::new() }

@@ -5,7 +5,7 @@ use std::task::Waker;
 use super::{Array, Host, Plan, World};
 use crate::error::Error;
 
-/// What a plan may want to know of the machine it will run on.
+/// The properties of a machine that a plan may depend on.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Machine {
     /// The device is a software adapter (lavapipe, SwiftShader, WARP): barriers cost, lanes are few.
@@ -14,11 +14,11 @@ pub struct Machine {
     pub subgroup: u32,
     /// Invocations that keep the device busy.
     pub invocations: u32,
-    /// Bytes of a field that one binding holds, at most; 0 where nothing is bound.
+    /// The largest number of bytes of a field that one binding holds; 0 where nothing is bound.
     pub bindable: u64,
-    /// Workgroups that it dispatches in one dimension, at most.
+    /// The largest number of workgroups of a dispatch in one dimension.
     pub workgroups: u32,
-    /// Iterations that the loops of an invocation may take, all together: some software drivers end them after 65 535.
+    /// The number of iterations allowed for all loops of an invocation together: some software drivers end them after 65 535.
     pub turns: u32,
 }
 
@@ -30,28 +30,28 @@ impl Machine {
     pub const TURNS: u32 = 60_000;
 }
 
-/// What may go to other threads: everything that does, but in a browser, where devices stay in theirs.
+/// Types that may move to other threads: all that are `Send + Sync`; in a browser all types, since devices stay in their thread.
 #[cfg(not(target_arch = "wasm32"))]
 pub trait Mobile: Send + Sync {}
 #[cfg(not(target_arch = "wasm32"))]
 impl<T: Send + Sync> Mobile for T {}
-/// What may go to other threads: everything that does, but in a browser, where devices stay in theirs.
+/// Types that may move to other threads: all that are `Send + Sync`; in a browser all types, since devices stay in their thread.
 #[cfg(target_arch = "wasm32")]
 pub trait Mobile {}
 #[cfg(target_arch = "wasm32")]
 impl<T> Mobile for T {}
 
-/// An array that is on its way to the host.
+/// An array that is being read back to the host.
 pub trait Arrival: Mobile {
-    /// The array, once it is there, or why it will not come. Waits for nothing.
+    /// The array, once it has arrived, or the reason of its failure. Returns immediately.
     fn look(&mut self) -> Option<Result<Array, Error>>;
-    /// Wakes a task once there is something to look at.
+    /// Wakes a task once the array has arrived.
     fn wake(&mut self, waker: &Waker);
 }
 
 /// Runs plans. The two backends are the GPU and the references.
 pub trait Backend {
-    /// A plan made ready.
+    /// A compiled plan.
     type Program;
     /// Properties of the device.
     fn machine(&self) -> Machine;
@@ -59,7 +59,7 @@ pub trait Backend {
     fn host(&self) -> Option<&Host> {
         None
     }
-    /// Makes a plan ready: checks limits, makes the fields that it names and that do not exist yet.
+    /// Compiles a plan: checks limits, and creates the fields that it names and that do not exist yet.
     ///
     /// # Errors
     /// [`Error::Limit`] when a field does not fit, [`Error::Shader`] when a shader does not compile,
@@ -70,31 +70,31 @@ pub trait Backend {
     /// # Errors
     /// When the device is lost, out of memory or does not answer in time.
     fn run(&mut self, program: &Self::Program, times: u32) -> Result<(), Error>;
-    /// Sets what every kernel knows.
+    /// Sets the parameters of every kernel.
     ///
     /// # Errors
     /// When the device is lost.
     fn set_world(&mut self, world: World) -> Result<(), Error>;
-    /// Another one of the same kind on the same device, for so many rows of particles, without any field.
+    /// Another backend of the same kind on the same device, for `rows` rows of particles, without any field.
     ///
     /// # Errors
-    /// When there are none.
+    /// When it cannot be created.
     fn alike(&self, rows: u32) -> Result<Self, Error>
     where
         Self: Sized;
-    /// Makes fields from now on for so many rows of particles.
+    /// From now on creates fields for `rows` rows of particles.
     fn resize(&mut self, rows: u32);
-    /// Sets how many rows are in use, and how many are free behind them.
+    /// Sets the number of rows in use, and of free rows after them.
     ///
     /// # Errors
     /// When the device is lost.
     fn set_rows(&mut self, count: u32, free: u32) -> Result<(), Error>;
-    /// Copies these fields and the clock as they are behind all that was run, in place of the copies that there are.
+    /// Copies these fields and the clock as they are after all submitted work, and replaces earlier copies.
     ///
     /// # Errors
     /// When there is no such field, or the device is lost or out of memory.
     fn save(&mut self, fields: &[String]) -> Result<(), Error>;
-    /// Puts the copies back, behind all that was run.
+    /// Restores the copies, after all submitted work.
     ///
     /// # Errors
     /// When the device is lost.
@@ -118,7 +118,7 @@ pub trait Backend {
     /// # Errors
     /// When there is no such field, the device is lost, or it does not answer in time.
     fn read(&mut self, name: &str, like: &Array, len: usize) -> impl Future<Output = Result<Array, Error>>;
-    /// Asks for a field as it is behind all that was run, and waits for nothing: `len` elements of the kind of `like`.
+    /// Requests a field as it is after all submitted work, without waiting: `len` elements of the kind of `like`.
     ///
     /// # Errors
     /// When there is no such field, or the device is lost.

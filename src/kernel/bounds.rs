@@ -2,7 +2,7 @@
 
 use glam::{DVec3, Vec3};
 
-/// What happens at two opposite sides of the box.
+/// The condition at two opposite sides of the box.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Side {
     /// Nothing: there is no box along this axis.
@@ -36,9 +36,9 @@ impl Side {
 pub struct Bounds {
     /// Its lowest corner \[length\].
     pub low: DVec3,
-    /// Its highest corner \[length\]; along an open axis neither means anything.
+    /// Its highest corner \[length\]; along an open axis both are ignored.
     pub high: DVec3,
-    /// What is at its sides, axis by axis.
+    /// The condition at its sides, axis by axis.
     pub sides: [Side; 3],
     /// 3, or 2 when everything happens in the plane z = 0.
     pub dimensions: u32,
@@ -74,7 +74,7 @@ impl Bounds {
         }
         Self { low, high, sides: [side; 3], dimensions: 3 }
     }
-    /// The axes with such sides: 1 where they are, else 0.
+    /// The axes with such sides: 1 for these, 0 for others.
     #[must_use]
     pub fn axes(&self, side: Side) -> DVec3 {
         DVec3::from_array(self.sides.map(|s| f64::from(u8::from(s == side))))
@@ -98,18 +98,18 @@ impl Bounds {
         };
         DVec3::new(of(0), of(1), of(2))
     }
-    /// The shortest way to any image. Which one that is, is found in single precision as the device finds it: half way
-    /// between two that are as near, both are to choose the same.
+    /// The shortest vector to any image. The image is chosen in single precision, as on the device: where two are equally near, half a box
+    /// away, both must choose the same one.
     #[must_use]
     pub fn shortest(&self, r: DVec3) -> DVec3 {
-        // The references ask for every pair.
+        // The references call this for every pair.
         if !self.has(Side::Periodic) {
             return r;
         }
         r - self.period() * self.turns(r.as_vec3()).as_dvec3()
     }
-    /// Whether an image is within a range, by the device's own arithmetic, operation by operation in single precision:
-    /// a pair at the very edge is to be in for both or out for both.
+    /// Whether an image is within a range, by the device's own arithmetic, operation by operation in single precision: a pair at the very
+    /// edge must be inside for both or outside for both.
     #[must_use]
     pub fn within(&self, r: DVec3, range: f64) -> bool {
         #[expect(clippy::cast_possible_truncation, reason = "as the device holds it")]
@@ -117,13 +117,13 @@ impl Bounds {
         let r = self.shortest_single(r);
         r.x * r.x + r.y * r.y + r.z * r.z < range * range
     }
-    /// The shortest way to any image, in single precision.
+    /// The shortest vector to any image, in single precision.
     #[must_use]
     pub fn shortest_single(&self, r: DVec3) -> Vec3 {
         let (r, period) = (r.as_vec3(), self.period().as_vec3());
         r - period * self.turns(r)
     }
-    /// The image in the box of a place, by the device's own arithmetic: see `shaders/neighbors/cell.wgsl`.
+    /// The image of a position inside the box, by the device's own arithmetic: see `shaders/neighbors/cell.wgsl`.
     #[must_use]
     pub fn wrapped_single(&self, x: DVec3) -> Vec3 {
         let (low, high, period) = (self.low.as_vec3(), self.high.as_vec3(), self.period().as_vec3());
@@ -141,7 +141,7 @@ impl Bounds {
         };
         Vec3::new(wrapped(0), wrapped(1), wrapped(2))
     }
-    /// The whole periods in a way.
+    /// The number of whole periods in a vector.
     fn turns(&self, r: Vec3) -> Vec3 {
         let turns = r * self.frequency().as_vec3();
         Vec3::new(turns.x.round_ties_even(), turns.y.round_ties_even(), turns.z.round_ties_even())

@@ -12,17 +12,17 @@ pub struct Column {
     pub name: Name,
     /// The type of a value.
     pub kind: Kind,
-    /// How many values there are.
+    /// The number of values.
     pub shape: Shape,
     /// Its unit, such as `length / time`; empty for a plain number.
     pub unit: Cow<'static, str>,
     /// A description in one line.
     pub about: Cow<'static, str>,
-    /// What writes it.
+    /// Its role: what writes it.
     pub role: Role,
     /// The column that is its rate of change, if integrators advance it.
     pub rate: Option<Name>,
-    /// How they do.
+    /// The way in which integrators advance it.
     pub advance: Advance,
     /// The default value; `None`: every particle must be given one.
     pub initial: Option<[f64; 4]>,
@@ -30,7 +30,7 @@ pub struct Column {
     pub place: Place,
 }
 
-/// What one value is.
+/// The kind of a value.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Kind {
     /// A real number: `f32` on the device, f64 on the host.
@@ -43,29 +43,29 @@ pub enum Kind {
     Whole,
 }
 
-/// How many values a column has.
+/// The number of values of a column.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Shape {
     /// One for each particle.
     Particle,
-    /// So many for each particle.
+    /// A number of values for each particle.
     Slots(u32),
-    /// So many for the whole system.
+    /// A number of values for the whole system.
     System(u32),
 }
 
-/// What writes a column, and what a state keeps of it.
+/// The role of a column: what writes it, and whether a state keeps it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Role {
     /// It is advanced by the steps: saved, restored and given back.
     State,
-    /// One law computes it anew in each evaluation.
+    /// One law recomputes it in each evaluation.
     Derived,
     /// It is zero at the start of each evaluation, and laws add to it.
     Sum,
 }
 
-/// How integrators advance a column y by its rate y'.
+/// The way in which integrators advance a column y by its rate y'.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub enum Advance {
     /// y ← y + c y' dt: with velocities (at a kick) where evaluations compute the rate, with positions (at a drift) where the
@@ -75,14 +75,14 @@ pub enum Advance {
     /// The same with positions, by a rate that follows from velocities and is computed in the middle of each drift, as that of
     /// a density is (see [`Column::carried`]).
     Carried,
-    /// A unit quaternion that turns a body by its angular velocity, as [`rotation`](crate::rotation) has it.
+    /// A unit quaternion that turns a body by its angular velocity, see [`rotation`](crate::rotation).
     Rotation {
         /// The column of its principal moments of inertia.
         inertia: Name,
     },
 }
 
-/// Where a column lies: a buffer and the first component of its elements.
+/// The location of a column: a buffer and the first component of its elements.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Place {
     /// The buffer, by its name in WGSL.
@@ -92,7 +92,7 @@ pub struct Place {
 }
 
 impl Kind {
-    /// Real numbers, or words, of one value.
+    /// The number of components of a value.
     #[must_use]
     pub fn components(self) -> usize {
         match self {
@@ -101,7 +101,7 @@ impl Kind {
             Self::Quaternion => 4,
         }
     }
-    /// What files append to the name of a column for each component.
+    /// The suffixes for the components, appended to the name of a column in files.
     #[must_use]
     pub fn suffixes(self) -> &'static [&'static str] {
         match self {
@@ -110,7 +110,7 @@ impl Kind {
             Self::Quaternion => &["_x", "_y", "_z", "_w"],
         }
     }
-    /// So many values of a kind on the host, all the same.
+    /// An array of `count` equal values of this kind on the host.
     #[must_use]
     pub fn filled(self, value: [f64; 4], count: usize) -> Array {
         let [x, y, z, w] = value;
@@ -122,7 +122,7 @@ impl Kind {
             Self::Whole => Array::Uint(vec![x as u32; count]),
         }
     }
-    /// That of an array on the host.
+    /// The kind of an array on the host.
     #[must_use]
     pub fn of(values: &Array) -> Self {
         match values {
@@ -132,7 +132,7 @@ impl Kind {
             Array::Uint(_) => Self::Whole,
         }
     }
-    /// The word of scenes and messages.
+    /// Its name in scenes and messages.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -156,7 +156,7 @@ impl Kind {
 }
 
 impl Shape {
-    /// Values of so many particles.
+    /// The number of values for `particles` particles.
     #[must_use]
     pub fn len(self, particles: usize) -> usize {
         match self {
@@ -177,7 +177,7 @@ impl Column {
         let (unit, about, shape, role) = (unit.into(), about.into(), Shape::Particle, Role::State);
         Self { name, kind, shape, unit, about, role, rate: None, advance: Advance::Linear, initial, place }
     }
-    /// The same, computed anew in each evaluation by one law.
+    /// The same, recomputed in each evaluation by one law.
     #[must_use]
     pub fn derived(self) -> Self {
         Self { role: Role::Derived, ..self }
@@ -192,10 +192,10 @@ impl Column {
     pub fn with_rate(self, rate: impl Into<Name>) -> Self {
         Self { rate: Some(rate.into()), ..self }
     }
-    /// The same, advanced with positions by this rate, which follows from velocities: dρ/dt = −ρ ∇·v. Taken at the end of a
-    /// drift it would count the second order of a straight way, by which what turns seems to expand, and in the middle it does
-    /// not: a drift goes half of its way, the rate is computed there, and the drift continues. That is of order 2; where the rate depends on
-    /// the column itself, which is that of the start then, of order 1.
+    /// The same, advanced with positions by this rate, which follows from velocities: dρ/dt = −ρ ∇·v. If the rate were taken at the end of
+    /// a drift, it would include the second-order term of a straight path, which makes a rotating fluid seem to expand; in the middle it
+    /// does not: a drift goes half of its way, the rate is computed there, and the drift continues. This is of order 2; where the rate
+    /// depends on the column itself, which then has its value at the start, of order 1.
     #[must_use]
     pub fn carried(self, rate: impl Into<Name>) -> Self {
         Self { advance: Advance::Carried, ..self.with_rate(rate) }
@@ -210,17 +210,17 @@ impl Column {
     pub fn shaped(self, shape: Shape) -> Self {
         Self { shape, ..self }
     }
-    /// The same with this value for particles that are given none.
+    /// The same with this value for particles without a given one.
     #[must_use]
     pub fn starting(self, value: [f64; 4]) -> Self {
         Self { initial: Some(value), ..self }
     }
-    /// The same, which every particle must be given.
+    /// The same, without an initial value: every particle must be given one.
     #[must_use]
     pub fn required(self) -> Self {
         Self { initial: None, ..self }
     }
-    /// The same within the elements of another column's buffer.
+    /// The same, stored in the elements of another column's buffer.
     #[must_use]
     pub fn within(self, buffer: impl Into<Name>, component: u8) -> Self {
         Self { place: Place { buffer: buffer.into(), component }, ..self }
@@ -230,7 +230,7 @@ impl Column {
     pub fn is_packed(&self) -> bool {
         self.place.buffer != self.name
     }
-    /// An array of so many particles that are given nothing.
+    /// An array of initial values for `particles` particles.
     #[must_use]
     pub fn array(&self, particles: usize) -> Array {
         self.kind.filled(self.initial.unwrap_or_default(), self.shape.len(particles))

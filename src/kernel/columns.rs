@@ -3,10 +3,10 @@
 use super::column::{Column, Kind, Role, Shape};
 use crate::error::Error;
 
-/// Buffers of the engine; a column of such a name would be another thing under the same name.
+/// Buffers of the engine, whose names no column may have.
 const RESERVED: [&str; 4] = ["world", "alarm", "params", "grid"];
 
-/// What names of buffers begin with that integrators keep beside columns.
+/// Prefixes of the names of buffers that integrators keep beside columns.
 const KEPT: [&str; 4] = ["start_", "slope_", "rate_", "kept_"];
 
 /// The columns of a simulation, in the order of their declaration; every name once.
@@ -19,7 +19,7 @@ impl Default for Columns {
     }
 }
 
-/// What every simulation has.
+/// The columns of every simulation.
 #[must_use]
 pub fn base() -> Vec<Column> {
     vec![
@@ -47,10 +47,10 @@ pub fn base() -> Vec<Column> {
 }
 
 impl Columns {
-    /// Those of all simulations, and these. A column may be declared by several components, in the same words.
+    /// The base columns and these. A column may be declared by several components, if the declarations are equal.
     ///
     /// # Errors
-    /// [`Error::Scene`] when two declarations of one name differ, a name is the engine's or no name in WGSL, a rate is not
+    /// [`Error::Scene`] when two declarations of one name differ, a name is reserved or not valid in WGSL, a rate is not
     /// declared or of another kind, or a column lies in a buffer that does not hold it.
     pub fn with(declared: impl IntoIterator<Item = Column>) -> Result<Self, Error> {
         let mut columns = Self::default();

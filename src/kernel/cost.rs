@@ -1,20 +1,20 @@
-//! What a run of a plan costs, by counts that no device is needed for.
+//! The cost of a run of a plan, by counts that need no device.
 
 use super::{Access, Kernel, Op, Pass, Plan};
 use crate::error::Error;
 
-/// What the dispatches of one kernel cost.
+/// The cost of the dispatches of one kernel.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Cost {
-    /// The place of the kernel in [`Plan::kernels`]; `None` for what opens and closes the iterations of loops.
+    /// The index of the kernel in [`Plan::kernels`]; `None` for the control dispatches of loops.
     pub kernel: Option<usize>,
-    /// How often it runs when every loop ends after its first iteration.
+    /// The number of runs when every loop ends after its first iteration.
     pub least: u64,
-    /// How often it runs when no loop ends early.
+    /// The number of runs when no loop ends early.
     pub most: u64,
     /// Dispatches of one run.
     pub dispatches: u64,
-    /// Workgroups of one run, without those that are known only on the device.
+    /// Workgroups of one run, without indirect dispatches, whose numbers are known only on the device.
     pub workgroups: u64,
     /// Bytes of the storage buffers that one run binds: each buffer counts once in each dispatch.
     pub bytes: u64,
@@ -23,7 +23,7 @@ pub struct Cost {
 }
 
 impl Plan {
-    /// What each kernel costs for so many particles, on a device that dispatches `limit` workgroups in one dimension.
+    /// The cost of each kernel for `count` particles, on a device that dispatches `limit` workgroups in one dimension.
     ///
     /// # Errors
     /// [`Error::Limit`] when a dispatch is too wide for the device.
@@ -58,7 +58,7 @@ impl Plan {
         }
         Ok(costs)
     }
-    /// The name of a kernel that a cost is of.
+    /// The name of the kernel of a cost.
     #[must_use]
     pub fn name(&self, cost: &Cost) -> &str {
         let kernel = cost.kernel.and_then(|place| self.kernels.get(place));
@@ -66,7 +66,7 @@ impl Plan {
     }
 }
 
-/// How often an operation runs a kernel, with loops in full or with one iteration of each.
+/// The number of times an operation runs a kernel, with loops in full or with one iteration of each.
 fn runs(op: &Op, kernel: usize, full: bool) -> u64 {
     match op {
         Op::Run(index) => u64::from(*index == kernel),
@@ -74,8 +74,8 @@ fn runs(op: &Op, kernel: usize, full: bool) -> u64 {
     }
 }
 
-/// How often an operation opens an iteration of a loop or closes the loop: those of iterations that are not needed are dispatches
-/// of no workgroups.
+/// The number of times an operation begins an iteration of a loop or ends the loop: iterations that are not needed are dispatches of no
+/// workgroups.
 fn controls(op: &Op, full: bool) -> u64 {
     match op {
         Op::Run(_) => 0,

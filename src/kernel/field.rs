@@ -18,12 +18,12 @@ pub const SPECIES: Field<u32> = Field::new("species");
 pub const LIFE: Field<u32> = Field::new("life");
 /// The id of a particle. The field exists if rows are reused for other particles; otherwise ids equal rows.
 pub const ID: Field<u32> = Field::new("id");
-/// The target positions of kinematic particles, by id: `xyz` the position \[length\], `w` the time at which it is reached
-/// \[time\]. Particles move there at constant velocity, and stay; a target in the past is reached in the next step. At the start it is their initial
-/// position. Write it with [`Simulation::write`](crate::simulation::Simulation::write). The field exists
-/// if a particle has [`Hold::Target`](crate::motion::Hold::Target). (`target` is a reserved word of WGSL.)
+/// The target positions of kinematic particles, by id: `xyz` the position \[length\], `w` the time at which it is reached \[time\].
+/// Particles move there at constant velocity, and then stay there; a target in the past is reached in the next step. At the start it is
+/// their initial position. Write it with [`Simulation::write`](crate::simulation::Simulation::write). The field exists if a particle has
+/// [`Hold::Target`](crate::motion::Hold::Target). (`target` is a reserved word of WGSL.)
 pub const TARGET: Field<Vec4> = Field::new("kinematic_target");
-/// Where fixed particles were at the start, in the order of [`Problem::held`](super::Problem::held).
+/// The positions of fixed particles at the start, in the order of [`Problem::held`](super::Problem::held).
 pub const HOME: Field<Vec4> = Field::new("home");
 /// Failures that kernels detect, word by word; `u32::MAX` in the first five and the last two while there are none.
 ///
@@ -87,12 +87,12 @@ impl Array {
             Self::Uint(a) => a.len(),
         }
     }
-    /// Whether it has none.
+    /// Whether it is empty.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }
-    /// How much memory its elements take \[bytes\].
+    /// The memory of its elements \[bytes\].
     #[must_use]
     pub fn bytes(&self) -> usize {
         match self {
@@ -102,7 +102,7 @@ impl Array {
             Self::Uint(a) => size_of_val(&**a),
         }
     }
-    /// The first element that single precision does not hold: NaN, infinite or too large.
+    /// The first element that does not fit single precision: NaN, infinite or too large.
     #[must_use]
     pub fn unfit(&self) -> Option<usize> {
         let fits = |x: &f64| x.abs() <= f64::from(f32::MAX);
@@ -113,7 +113,7 @@ impl Array {
             Self::Uint(_) => None,
         }
     }
-    /// Makes it as long as said; new elements hold this value.
+    /// Changes its length; new elements hold this value.
     pub fn resize(&mut self, len: usize, [x, y, z, w]: [f64; 4]) {
         match self {
             Self::Vec4(a) => a.resize(len, DVec4::new(x, y, z, w)),
@@ -123,7 +123,7 @@ impl Array {
             Self::Uint(a) => a.resize(len, x as u32),
         }
     }
-    /// Adds the elements of another array of the same kind; one of another kind has none to add.
+    /// Appends an array of the same kind; does nothing for another kind.
     pub fn extend(&mut self, other: &Self) {
         match (self, other) {
             (Self::Vec4(a), Self::Vec4(b)) => a.extend_from_slice(b),
@@ -133,7 +133,7 @@ impl Array {
             _ => {}
         }
     }
-    /// Puts elements of the same kind in place of those from one on; those beyond the end are left out.
+    /// Replaces elements from `first` on by those of an array of the same kind; those beyond the end are left out.
     pub fn replace(&mut self, first: usize, other: &Self) {
         match (self, other) {
             (Self::Vec4(a), Self::Vec4(b)) => a.iter_mut().skip(first).zip(b).for_each(|(a, b)| *a = *b),
@@ -143,7 +143,7 @@ impl Array {
             _ => {}
         }
     }
-    /// Groups of so many elements, in this order.
+    /// Groups of `group` elements, in this order.
     #[must_use]
     pub fn picked(&self, order: &[usize], group: usize) -> Self {
         let places = order.iter().flat_map(|n| n * group..(n + 1) * group);
@@ -166,7 +166,7 @@ impl Array {
             Self::Uint(a) => bytemuck::cast_slice(a).to_vec(),
         }
     }
-    /// The array whose bytes these are, of the same kind as `self`.
+    /// The array with these bytes, of the same kind as `self`.
     #[must_use]
     pub fn like(&self, bytes: &[u8]) -> Self {
         match self {
@@ -197,13 +197,13 @@ fn words<T: bytemuck::AnyBitPattern>(bytes: &[u8]) -> Vec<T> {
     bytes.chunks_exact(size_of::<T>()).map(bytemuck::pod_read_unaligned).collect()
 }
 
-/// What a field may hold, and what the reference of that is.
+/// The type of a field's elements, and of their reference.
 pub trait Element: bytemuck::Pod + Send + Sync {
     /// The same in f64.
     type Reference: Copy + Send + Sync;
     /// Without loss.
     fn widen(self) -> Self::Reference;
-    /// Rounded to what the device holds.
+    /// Rounded to the type of the device.
     fn narrow(reference: Self::Reference) -> Self;
     /// Wraps a vector of references.
     fn array(values: Vec<Self::Reference>) -> Array;

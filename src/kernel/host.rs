@@ -9,7 +9,7 @@ use super::{Array, Element, Field, Flag, LIFE, World};
 use crate::error::Error;
 use crate::life::Life;
 
-/// Named arrays, and what every kernel knows.
+/// Named arrays, and the parameters of every kernel.
 #[derive(Debug, Default)]
 pub struct Host {
     arrays: BTreeMap<String, RwLock<Arc<Array>>>,
@@ -40,7 +40,7 @@ impl<T: Element> std::ops::DerefMut for Writing<'_, T> {
 }
 
 impl Host {
-    /// Puts an array under a name, in place of what was there.
+    /// Stores an array under a name, in place of an earlier one.
     pub fn insert(&mut self, name: &str, array: Array) {
         self.arrays.insert(name.to_owned(), RwLock::new(Arc::new(array)));
     }
@@ -74,7 +74,7 @@ impl Host {
     /// Puts an array in place of another of the same kind and length.
     ///
     /// # Errors
-    /// When there is none such, or it is open.
+    /// When there is no such array, or it is open.
     pub fn replace(&self, name: &str, array: Array) -> Result<(), Error> {
         let lock = self.arrays.get(name).ok_or_else(|| missing(name))?;
         let mut old = lock.try_write().map_err(|_| aliased(name))?;
@@ -89,7 +89,7 @@ impl Host {
     pub fn get(&self, name: &str) -> Option<Array> {
         Some(Array::clone(&*self.arrays.get(name)?.read().ok()?))
     }
-    /// All arrays as they are now, by name. What is written later does not change them.
+    /// All arrays at present, by name. Later writes do not change them.
     ///
     /// # Errors
     /// When one is being written.
@@ -158,20 +158,20 @@ impl Host {
         }
         Ok(Writing(guard, PhantomData))
     }
-    /// Which particles take part, by id: all of them where there is no such field.
+    /// The life of particles, by id: all are active where there is no such field.
     ///
     /// # Errors
-    /// When that is being written.
+    /// When that field is being written.
     pub fn is_active(&self) -> Result<impl Fn(usize) -> bool + Sync + use<>, Error> {
         let life = if self.contains(LIFE.name) { self.read(LIFE)?.to_vec() } else { Vec::new() };
         Ok(move |id: usize| life.get(id).is_none_or(|word| *word == Life::Active.word()))
     }
-    /// What every kernel knows.
+    /// The parameters of every kernel.
     #[must_use]
     pub fn world(&self) -> World {
         self.world.read().map_or_else(|e| **e.get_ref(), |c| *c)
     }
-    /// Sets it.
+    /// Sets the parameters of every kernel.
     pub fn set_world(&self, world: World) {
         match self.world.write() {
             Ok(mut c) => *c = world,

@@ -1,15 +1,15 @@
-//! The list of neighbours of a problem, as numbers: what kernels that build it and kernels that read it agree on.
+//! The shape of the neighbour list of a problem: the numbers that kernels which build it and kernels which read it share.
 
-/// The list of neighbours that all laws over it share.
+/// The neighbour list that all laws over it share.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ListShape {
     /// The longest range of a law \[length\].
     pub range: f64,
-    /// How much farther the list reaches \[length\].
+    /// The distance by which the list exceeds the range \[length\].
     pub skin: f64,
-    /// Words of history that are kept for each pair.
+    /// Words of history of each pair.
     pub words: u32,
-    /// Neighbours of one particle that there is room for: a multiple of four.
+    /// The number of neighbours of one particle that there is room for: a multiple of four.
     pub capacity: u32,
 }
 
@@ -19,11 +19,11 @@ impl ListShape {
     pub fn reach(&self) -> f64 {
         self.range + self.skin
     }
-    /// The same with room for some more than so many neighbours, of so many particles.
+    /// The same with room for more than `neighbors` neighbours of each of `particles` particles.
     #[must_use]
     pub fn with_room(self, neighbors: u32, particles: u32) -> Self {
         let others = particles.saturating_sub(1).max(1);
-        // Half as many more, and some for particles that have few.
+        // One and a half times as many, plus 8 for particles with few.
         let wanted = neighbors.saturating_add(neighbors / 2).saturating_add(8);
         Self { capacity: wanted.min(others).div_ceil(4) * 4, ..self }
     }

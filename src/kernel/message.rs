@@ -32,7 +32,7 @@ pub fn validation(sources: &[Source], error: &WithSpan<ValidationError>) -> Erro
         message.push_str(&inner.to_string());
         cause = inner.source();
     }
-    // The last span is the narrowest; a span in the user's own file says more than one in ours.
+    // The last span is the narrowest; a span in the user's own file is more useful than one in ours.
     let spans: Vec<_> = error.spans().collect();
     let theirs = spans.iter().rev().find(|(span, _)| {
         span.to_range().and_then(|r| place(sources, r.start)).is_some_and(|(source, _)| !source.ours)
@@ -43,7 +43,7 @@ pub fn validation(sources: &[Source], error: &WithSpan<ValidationError>) -> Erro
     Error::Shader { message }
 }
 
-/// The file, and the place in it, of a place in the joined text.
+/// The file and the position in it that correspond to a position in the joined text.
 pub fn place(sources: &[Source], mut at: usize) -> Option<(&Source, usize)> {
     for source in sources {
         let length = source.compiled().len();

@@ -1,14 +1,14 @@
-//! The order in which kernels run: a list of operations. Loops are among them, so that a plan says what repeats, how often at
-//! most, and what ends it; a backend decides how.
+//! The order in which kernels run: a list of operations, some of them loops. A plan gives the body of a loop, the maximum number of
+//! iterations, and the flag that ends it; a backend decides how to run it.
 
 use super::{Kernel, Name, Plan};
 
-/// A word of a field that a kernel sets to another value than zero.
+/// A word of a field that a kernel sets to a nonzero value.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Flag {
     /// The field.
     pub field: Name,
-    /// The word of it, of four bytes each.
+    /// The index of the word, of four bytes each.
     pub word: u32,
     /// Its name in the shader.
     pub member: &'static str,
@@ -17,35 +17,35 @@ pub struct Flag {
 /// One operation of a plan.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Op {
-    /// Runs a kernel, by its place in [`Plan::kernels`].
+    /// Runs a kernel, by its index in [`Plan::kernels`].
     Run(usize),
     /// Runs operations once, and then again for as long as the flag is zero.
     Repeat {
-        /// How often they run, at most.
+        /// The maximum number of times they run.
         most: u32,
-        /// What ends the loop. It is looked at after each iteration but the last.
+        /// The flag that ends the loop. It is checked after each iteration but the last.
         until: Flag,
-        /// What is repeated; loops may hold loops.
+        /// The repeated operations; loops may contain loops.
         body: Vec<Op>,
     },
 }
 
 impl Op {
-    /// The kernels that it runs, each as often as it stands there; what a loop repeats counts once.
+    /// The kernels that it runs, in order; those of a loop once.
     pub(super) fn kernels(&self) -> Box<dyn Iterator<Item = usize> + '_> {
         match self {
             Self::Run(index) => Box::new(std::iter::once(*index)),
             Self::Repeat { body, .. } => Box::new(body.iter().flat_map(Self::kernels)),
         }
     }
-    /// The sum of something over all that it runs, loops in full.
+    /// The sum of a quantity over all kernels that it runs, loops in full.
     pub(super) fn total(&self, of: &dyn Fn(usize) -> u64) -> u64 {
         match self {
             Self::Run(index) => of(*index),
             Self::Repeat { most, body, .. } => u64::from(*most) * body.iter().map(|op| op.total(of)).sum::<u64>(),
         }
     }
-    /// The same with other places of kernels; loops of which nothing is left are left out.
+    /// The same with other indices of kernels; empty loops are left out.
     pub(super) fn mapped(&self, place: &dyn Fn(usize) -> Option<usize>) -> Option<Self> {
         match self {
             Self::Run(index) => place(*index).map(Self::Run),
@@ -57,12 +57,12 @@ impl Op {
     }
 }
 
-/// What comes next in a run of a plan.
+/// The next action in a run of a plan.
 #[derive(Debug, Clone, Copy)]
 pub enum Next<'a> {
     /// A kernel runs.
     Run(&'a Kernel),
-    /// A loop may end: if its flag is set, [`Walk::leave`] it.
+    /// A loop may end: if its flag is set, call [`Walk::leave`].
     Ask(&'a Flag),
 }
 
@@ -78,7 +78,7 @@ pub struct Walk<'a> {
 struct Level<'a> {
     ops: &'a [Op],
     at: usize,
-    /// Iterations that are left, with this one.
+    /// Iterations left, including this one.
     left: u32,
     until: Option<&'a Flag>,
 }
@@ -87,7 +87,7 @@ impl<'a> Walk<'a> {
     pub(super) fn new(plan: &'a Plan) -> Self {
         Self { plan, levels: vec![Level { ops: &plan.ops, at: 0, left: 1, until: None }] }
     }
-    /// Ends the loop whose flag was asked about last.
+    /// Ends the loop whose flag was returned last.
     pub fn leave(&mut self) {
         self.levels.pop();
     }

@@ -1,10 +1,10 @@
-//! Uniform blocks, packed by the names that reflection finds.
+//! Packing of uniform blocks, by the member names of the reflection.
 
 use glam::DVec3;
 
 use crate::error::Error;
 
-/// A value that goes into a member of a struct.
+/// A value of a member of a struct.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Scalar {
     /// `f32`
@@ -19,18 +19,18 @@ pub enum Scalar {
     Vector4([f64; 4]),
 }
 
-/// A member of a struct: where it is, and of what.
+/// A member of a struct: its offset and its type.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Member {
     /// Its name.
     pub name: String,
     /// Bytes from the start.
     pub offset: usize,
-    /// 1 for a number, 3 for a `vec3`; 0 for anything that a host cannot fill.
+    /// 1 for a number, 3 for a `vec3`; 0 for anything that the host cannot fill.
     pub components: usize,
-    /// Whether of `f32`; else of integers.
+    /// Whether its numbers are `f32`; otherwise they are integers.
     pub float: bool,
-    /// Whether of integers that may be below zero: `i32`.
+    /// Whether its numbers are signed integers: `i32`.
     pub signed: bool,
 }
 
@@ -49,11 +49,10 @@ fn bytes(x: f64) -> [u8; 4] {
 }
 
 impl Packed {
-    /// Packs values by name. Every member must be named once, with a value of its kind; an integer will do where
-    /// a float is wanted.
+    /// Packs values by name. Every member must be given once, with a value of its kind; an integer may be given for a float.
     ///
     /// # Errors
-    /// [`Error::Scene`] that names what is missing, unknown or of the wrong kind.
+    /// [`Error::Scene`] that names the missing, unknown or mistyped member.
     pub fn pack(&self, owner: &str, values: &[(&str, Scalar)]) -> Result<Vec<u8>, Error> {
         let mut out = vec![0; self.size];
         for (name, _) in values {
@@ -119,7 +118,7 @@ impl Packed {
 }
 
 impl Member {
-    /// The largest whole number that it holds.
+    /// The largest integer that it can hold.
     fn most(&self) -> f64 {
         if self.signed { f64::from(i32::MAX) } else { f64::from(u32::MAX) }
     }

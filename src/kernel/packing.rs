@@ -5,7 +5,7 @@ use glam::DVec4;
 use super::{Array, Column, Columns, Kind};
 
 impl Columns {
-    /// An empty array of what the elements of a buffer are; `None` where no column lies there.
+    /// An empty array of the element type of a buffer; `None` where no column lies there.
     #[must_use]
     pub fn element(&self, buffer: &str) -> Option<Array> {
         let first = self.of_buffer(buffer).next()?;
@@ -16,7 +16,7 @@ impl Columns {
             _ => Array::Vec4(Vec::new()),
         })
     }
-    /// The elements of a buffer, of so many particles: `values` gives those of a column, which else has its initial value.
+    /// The elements of a buffer, for `particles` particles: `values` gives those of a column, which otherwise has its initial value.
     #[must_use]
     pub fn packed<'a>(
         &self,
@@ -33,7 +33,7 @@ impl Columns {
         }
         Some(array)
     }
-    /// The values of a column out of the elements of its buffer.
+    /// The values of a column, extracted from the elements of its buffer.
     #[must_use]
     pub fn unpacked(column: &Column, elements: &Array) -> Array {
         let Array::Vec4(elements) = elements else { return elements.clone() };
@@ -48,7 +48,7 @@ impl Columns {
     }
 }
 
-/// Puts the values of a column into elements of four numbers.
+/// Writes the values of a column into elements of four numbers.
 pub fn insert(elements: &mut [DVec4], column: &Column, values: &Array) {
     let first = usize::from(column.place.component);
     match values {

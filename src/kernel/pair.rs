@@ -8,11 +8,11 @@ use crate::error::Error;
 /// A column and its rate.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Pair {
-    /// What is advanced.
+    /// The column that is advanced.
     pub column: Column,
     /// Its rate of change.
     pub rate: Column,
-    /// When, and how.
+    /// When, and how, it is advanced.
     pub way: Way,
 }
 
@@ -58,18 +58,18 @@ impl Pair {
 }
 
 impl Columns {
-    /// What integrators advance beside positions and velocities, in the order of declaration.
+    /// The columns that integrators advance in addition to positions and velocities, in the order of declaration.
     #[must_use]
     pub fn pairs(&self) -> Vec<Pair> {
         let own = |column: &&Column| !["position", "velocity"].contains(&column.name.as_ref());
         self.iter().filter(own).filter_map(|column| Pair::of(column, self)).collect()
     }
-    /// The element of the buffer of a column: a vector where it is one or lies in one, else a number.
+    /// Whether the elements of a column's buffer are vectors, because it is a vector or lies in one; otherwise they are numbers.
     #[must_use]
     pub fn lies_in_vectors(&self, column: &Column) -> bool {
         self.get(&column.place.buffer).is_some_and(|owner| matches!(owner.kind, Kind::Vector | Kind::Quaternion))
     }
-    /// Whether a column can be advanced as it says.
+    /// Checks whether a column can be advanced as declared.
     pub(super) fn check_rate(&self, column: &Column) -> Result<(), Error> {
         let Some(rate) = &column.rate else { return Ok(()) };
         let Some(other) = self.get(rate) else {
@@ -117,7 +117,7 @@ impl Columns {
         }
         self.check_body(column, other)
     }
-    /// What turns needs a torque, moments of inertia, and buffers of its own.
+    /// A rotating body requires a torque, moments of inertia, and buffers of its own.
     fn check_body(&self, column: &Column, rate: &Column) -> Result<(), Error> {
         let Advance::Rotation { inertia } = &column.advance else { return Ok(()) };
         let torque = rate.rate.as_ref().and_then(|torque| self.get(torque));
@@ -143,7 +143,7 @@ impl Columns {
             None => Ok(()),
         }
     }
-    /// Whether what is set to zero before each evaluation is a sum alone.
+    /// Checks whether a column that is set to zero before each evaluation is only a sum.
     pub(super) fn check_sum(&self, column: &Column) -> Result<(), Error> {
         let other = self.of_buffer(&column.place.buffer).find(|other| other.role != Role::Sum);
         match other.filter(|_| column.role == Role::Sum) {

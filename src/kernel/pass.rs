@@ -5,7 +5,7 @@ use std::sync::Arc;
 use super::{Binding, Name, Shader};
 use crate::error::Error;
 
-/// How many invocations a pass needs: `count` in the plane, times `layers`.
+/// The number of invocations of a pass: `count` in the plane, times `layers`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Threads {
     /// Invocations in one layer; rounded up to whole workgroups, folded over two dimensions.
@@ -22,10 +22,10 @@ impl Threads {
     }
 }
 
-/// Where the workgroups of a dispatch stand: three words of a field, from one of them on.
+/// The location of the workgroup counts of an indirect dispatch: three consecutive words of a field.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Indirect {
-    /// The field. Its name holds a space, so that no user's shader can bind it: a device may not check what it reads there.
+    /// The field. Its name contains a space, so that no user's shader can bind it: a device may not validate the counts that it reads.
     pub field: Name,
     /// The first of the three words.
     pub word: u32,
@@ -34,7 +34,7 @@ pub struct Indirect {
 /// One dispatch.
 #[derive(Debug, Clone)]
 pub struct Pass {
-    /// What runs.
+    /// The shader.
     pub shader: Arc<Shader>,
     /// Values of its `override`s.
     pub constants: Vec<(&'static str, f64)>,
@@ -43,12 +43,11 @@ pub struct Pass {
     /// Names in the shader that stand for another field: the name there, and the field. One shader may so serve many
     /// fields: a scan scans whatever it is given.
     pub fields: Vec<(&'static str, Name)>,
-    /// How wide.
+    /// The number of invocations.
     pub threads: Threads,
-    /// Where the number of its workgroups stands, if it is known only on the device. Without work it costs next to nothing
-    /// then.
+    /// The location of its workgroup counts, if these are known only on the device. A dispatch without workgroups costs next to nothing.
     pub indirect: Option<Indirect>,
-    /// About how much it does: evaluations of a pair, or one per particle. Submissions are cut by it.
+    /// An estimate of its work: evaluations of a pair, or one per particle. Submissions are divided by it.
     pub work: u64,
 }
 
@@ -60,21 +59,21 @@ impl Pass {
         let (threads, work) = (Threads::new(count), u64::from(count));
         Self { shader, constants, uniforms, fields, threads, indirect: None, work }
     }
-    /// The same with fields in place of names of the shader.
+    /// The same with fields bound to names of the shader.
     #[must_use]
     pub fn on(mut self, fields: &[(&'static str, Name)]) -> Self {
         self.fields.extend_from_slice(fields);
         self
     }
-    /// The field that a name of the shader stands for.
+    /// The field that a name of the shader is bound to.
     #[must_use]
     pub fn field<'a>(&'a self, name: &'a str) -> &'a str {
         self.fields.iter().find(|(inside, _)| *inside == name).map_or(name, |(_, field)| field)
     }
-    /// Its workgroups, folded over two dimensions where one is too short.
+    /// Its workgroups, folded over two dimensions where one does not suffice.
     ///
     /// # Errors
-    /// [`Error::Limit`] when a device dispatches `limit` in one dimension, and that is too few.
+    /// [`Error::Limit`] when a device dispatches `limit` in one dimension, and that does not suffice.
     pub fn workgroups(&self, limit: u32) -> Result<[u32; 3], Error> {
         let workgroups = self.threads.count.div_ceil(self.shader.reflection().workgroup).max(1);
         let rows = workgroups.div_ceil(limit);
@@ -87,7 +86,7 @@ impl Pass {
         }
         Ok([workgroups.div_ceil(rows), rows, self.threads.layers.max(1)])
     }
-    /// What is bound, with the field that each binding stands for.
+    /// Its bindings, with the field bound to each.
     pub fn bindings(&self) -> impl Iterator<Item = (&str, &Binding)> {
         self.shader.reflection().bindings.iter().map(|binding| (self.field(&binding.name), binding))
     }

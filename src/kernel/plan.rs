@@ -14,23 +14,23 @@ pub type Reference = Arc<dyn Fn(&Host) -> Result<(), Error> + Send + Sync>;
 /// The name of a field.
 pub type Name = Cow<'static, str>;
 
-/// A field that holds something from the start, and the words of its elements.
+/// A field with initial contents, and the words of its elements.
 pub type Table = (Name, Arc<Vec<u32>>);
 
 /// One operation with a name: its dispatches, in order, and its reference.
 #[derive(Clone)]
 pub struct Kernel {
-    /// What `motes explain` calls it, constants included.
+    /// Its name in `motes explain`, constants included.
     pub name: String,
     /// The dispatches.
     pub passes: Vec<Pass>,
-    /// The same in f64. `None` only for a user's shader.
+    /// The reference in f64. `None` only for a user's shader.
     pub reference: Option<Reference>,
     /// Elements of fields that do not have one element per particle.
     pub sizes: Vec<(Name, u64)>,
-    /// Fields that hold nothing of worth after the last dispatch; the reference does without them.
+    /// Fields whose contents are not needed after the last dispatch; the reference does without them.
     pub scratch: Vec<Name>,
-    /// What fields hold from the start that no kernel fills: the words of their elements.
+    /// The initial contents of fields that no kernel fills: the words of their elements.
     pub tables: Vec<Table>,
 }
 
@@ -71,11 +71,11 @@ impl Kernel {
         }
         names
     }
-    /// What its dispatches bind, with the field that each binding stands for.
+    /// The bindings of its dispatches, with the field bound to each.
     pub fn bindings(&self) -> impl Iterator<Item = (&str, &Binding)> {
         self.passes.iter().flat_map(Pass::bindings)
     }
-    /// Whether a field holds nothing of worth after the last dispatch.
+    /// Whether the contents of a field are not needed after the last dispatch.
     #[must_use]
     pub fn is_scratch(&self, field: &str) -> bool {
         self.scratch.iter().any(|name| name == field)
@@ -85,7 +85,7 @@ impl Kernel {
     pub fn size(&self, field: &str) -> Option<u64> {
         self.sizes.iter().find(|(name, _)| name == field).map(|(_, elements)| *elements)
     }
-    /// Whether its dispatches are those of another.
+    /// Whether its dispatches equal those of another.
     fn runs_as(&self, other: &Self) -> bool {
         let same = |(a, b): (&Pass, &Pass)| {
             let content = a.shader.text() == b.shader.text() && a.constants == b.constants && a.uniforms == b.uniforms;
@@ -130,7 +130,7 @@ impl Plan {
         kernels.into_iter().for_each(|kernel| plan.add(kernel));
         plan
     }
-    /// Whether nothing runs.
+    /// Whether it has no operations.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.ops.is_empty()
@@ -138,29 +138,29 @@ impl Plan {
     /// Adds a kernel at the end, under a name.
     ///
     /// # Errors
-    /// What `make` says.
+    /// Errors of `make`.
     pub fn push(&mut self, name: &str, make: impl FnOnce() -> Result<Kernel, Error>) -> Result<(), Error> {
         let mut kernel = make()?;
         name.clone_into(&mut kernel.name);
         self.add(kernel);
         Ok(())
     }
-    /// Adds a kernel at the end; the same one that is there already is used again. A name alone does not make it the
-    /// same: a user's force may be called `drift`.
+    /// Adds a kernel at the end; an identical one that is already there is reused. The same name does not make kernels identical: a user's
+    /// force may be called `drift`.
     pub fn add(&mut self, kernel: Kernel) {
         let index = self.place(kernel);
         self.ops.push(Op::Run(index));
     }
-    /// Adds all that another plan does.
+    /// Appends all operations of another plan.
     pub fn append(&mut self, other: Self) {
         let body = self.taken(other);
         self.ops.extend(body);
     }
-    /// Adds a loop: what `body` does, once and again until `member` of an element of `field` is not zero, `most` times at the
-    /// most. The member is a number of the struct that a kernel of the body writes there.
+    /// Adds a loop: runs `body` repeatedly until `member` of an element of `field` is not zero, at most `most` times. The member is a
+    /// number of the struct that a kernel of the body writes there.
     ///
     /// # Errors
-    /// [`Error::Device`] when the body writes no such member: the loop would not end by itself.
+    /// [`Error::Device`] when the body does not write such a member: the loop would not end by itself.
     pub fn repeat(
         &mut self,
         most: u32,
@@ -188,7 +188,7 @@ impl Plan {
         self.ops.push(Op::Repeat { most, until, body });
         Ok(())
     }
-    /// Leaves out kernels that are not wanted; they stay known.
+    /// Removes operations of unwanted kernels; the kernels stay in the list.
     pub fn retain(&mut self, wanted: impl Fn(&Kernel) -> bool) {
         let kept = |index: usize| self.kernels.get(index).is_some_and(&wanted).then_some(index);
         self.ops = self.ops.iter().filter_map(|op| op.mapped(&kept)).collect();
@@ -215,12 +215,12 @@ impl Plan {
             self.kernels.len() - 1
         })
     }
-    /// Takes the kernels of another plan, and gives its operations as they are here.
+    /// Takes the kernels of another plan, and returns its operations with the indices of this one.
     fn taken(&mut self, other: Self) -> Vec<Op> {
         let places: Vec<usize> = other.kernels.into_iter().map(|kernel| self.place(kernel)).collect();
         other.ops.iter().filter_map(|op| op.mapped(&|index| places.get(index).copied())).collect()
     }
-    /// What a field holds from the start, if any kernel says so.
+    /// The initial contents of a field, if any kernel gives them.
     #[must_use]
     pub fn table(&self, field: &str) -> Option<&Arc<Vec<u32>>> {
         let tables = self.kernels.iter().flat_map(|kernel| &kernel.tables);
@@ -240,14 +240,14 @@ impl Plan {
         let of = |index: usize| self.kernels.get(index).map_or(0, &of);
         self.ops.iter().map(|op| op.total(&of)).sum()
     }
-    /// Bytes of every storage field that the plan names, for so many particles.
+    /// Bytes of every storage field that the plan names, for `count` particles.
     #[must_use]
     pub fn fields(&self, count: u32) -> BTreeMap<String, u64> {
         let mut fields = BTreeMap::new();
         for kernel in &self.kernels {
             for (field, binding) in kernel.bindings().filter(|(_, b)| b.access != Access::Uniform) {
                 let elements = kernel.size(field).unwrap_or(u64::from(count));
-                // A device binds no empty array, and no part of an element.
+                // A device binds neither empty arrays nor parts of elements.
                 let bytes = if binding.array { binding.stride * elements.max(1) } else { binding.stride };
                 let entry = fields.entry(field.to_owned()).or_insert(0);
                 *entry = bytes.max(*entry);

@@ -9,33 +9,33 @@ use crate::life::{Birth, Drain};
 use crate::links::{Links, Network};
 use crate::motion::{self, Held, Motion};
 
-/// The machine, the particles' number and place at the start, and their box. What a plan makes of the place are
-/// guesses of speed alone: particles may go anywhere.
+/// The machine, the number and initial positions of the particles, and their box. A plan uses the positions only to estimate speed:
+/// particles may move anywhere.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Problem {
     /// Rows of particles, in use and free: as many as buffers hold and dispatches cover.
     pub capacity: u32,
-    /// Rows in use when the plan is written. Shapes of searches and cuts of sums are chosen by it, so that free rows change no bit.
+    /// Rows in use when the plan is written. The shapes of searches and the division of sums are chosen by it, so that free rows change no bit.
     pub particles: u32,
-    /// Whether ids are a column, apart from rows.
+    /// Whether ids are a column, separate from rows.
     pub has_ids: bool,
-    /// What the plan will run on.
+    /// The machine that the plan will run on.
     pub machine: Machine,
-    /// Where particles may be.
+    /// The box and its boundaries.
     pub bounds: Bounds,
-    /// The lowest and the highest corner of where they are at the start \[length\].
+    /// The lowest and the highest corner of the initial positions \[length\].
     pub extent: (DVec3, DVec3),
-    /// How many are of each species; nothing where there is but one.
+    /// The number of particles of each species; empty where there is only one.
     pub species: Vec<(u32, u32)>,
     /// Links between them.
     pub network: Arc<Network>,
-    /// Whether that changes as it goes: springs that break.
+    /// Whether links may break.
     pub breaks: bool,
-    /// Those that forces do not move, as [`motion::sorted`] has them.
+    /// The fixed and kinematic particles, in the order of [`motion::sorted`].
     pub held: Arc<Vec<Held>>,
-    /// One word for each particle, 1 where it is fixed; empty where none is.
+    /// One word for each particle, 1 where it is fixed; empty where no particle is.
     pub mask: Arc<Vec<u32>>,
-    /// What leads some of them, and solids.
+    /// The motions of kinematic particles and obstacles.
     pub motions: Arc<Vec<Motion>>,
     /// The particles that are to be spawned.
     pub births: Arc<Vec<Birth>>,
@@ -45,30 +45,30 @@ pub struct Problem {
     pub has_inactive: bool,
     /// The step size \[time\]: motions are given in steps.
     pub dt: f64,
-    /// How much of the step positions have been advanced by, where a plan is being written: when a drift ends.
+    /// While a plan is written: the part of the step by which positions have been advanced at the end of the current drift.
     pub reached: f64,
-    /// How well implicit integrators solve.
+    /// The tolerances of implicit integrators.
     pub solver: Solver,
-    /// How long steps are, where they are not all alike.
+    /// The adaptive time step; `None`: all steps have the same length.
     pub adaptive_step: Option<AdaptiveStep>,
     /// The columns of the simulation.
     pub columns: Arc<Columns>,
-    /// The list of neighbours that laws share, if any is over one.
+    /// The neighbour list that laws share, if any law is over one.
     pub list: Option<ListShape>,
-    /// How many neighbours particles have at the start within ranges for which a law asks that.
+    /// The neighbour counts at the start within the ranges for which a law requires them.
     pub neighbors: Vec<Neighbors>,
 }
 
-/// How many neighbours particles have.
+/// The mean number of neighbours within a range.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Neighbors {
-    /// Within this range \[length\].
+    /// The range \[length\].
     pub range: f64,
-    /// So many, on average.
+    /// The mean number.
     pub mean: f64,
 }
 
-/// The lowest and the highest corner of some places \[length\].
+/// The lowest and the highest corner of some positions \[length\].
 #[must_use]
 pub fn extent(positions: &[DVec3]) -> (DVec3, DVec3) {
     let low = positions.iter().copied().reduce(DVec3::min).unwrap_or_default();
@@ -77,8 +77,8 @@ pub fn extent(positions: &[DVec3]) -> (DVec3, DVec3) {
 }
 
 impl Problem {
-    /// So many particles in open space, somewhere in a cube of unit sides, without links: a law over links is looked at
-    /// here, and runs where [`Problem::tied`] has made its tables.
+    /// A problem of `count` particles in open space, somewhere in a unit cube, without links: a law over links is only checked here, and
+    /// runs where [`Problem::tied`] has made its tables.
     #[must_use]
     pub fn new(count: u32, machine: Machine) -> Self {
         Self {
@@ -106,12 +106,12 @@ impl Problem {
             neighbors: Vec::new(),
         }
     }
-    /// How many neighbours particles have at the start within a range, on average, if that was counted.
+    /// The mean number of neighbours at the start within a range, if it was counted.
     #[must_use]
     pub fn neighbors_within(&self, range: f64) -> Option<f64> {
         self.neighbors.iter().find(|known| known.range.to_bits() == range.to_bits()).map(|known| known.mean)
     }
-    /// The same with this list of neighbours.
+    /// The same with this neighbour list.
     #[must_use]
     pub fn listed(self, list: Option<ListShape>) -> Self {
         Self { list, ..self }
@@ -121,7 +121,7 @@ impl Problem {
     pub fn of_columns(self, columns: Columns) -> Self {
         Self { columns: Arc::new(columns), ..self }
     }
-    /// The same with particles at these places, in this box.
+    /// The same with particles at these positions, in this box.
     #[must_use]
     pub fn at(self, positions: &[DVec3], bounds: Bounds) -> Self {
         Self { bounds, extent: extent(positions), ..self }
@@ -135,7 +135,7 @@ impl Problem {
         }
         Self { species: counts.into_iter().collect(), ..self }
     }
-    /// The same with these links, between these fixed ones.
+    /// The same with these links and these fixed and kinematic particles.
     #[must_use]
     pub fn tied(self, links: &Links, held: &[Held]) -> Self {
         let mask = if held.is_empty() { Vec::new() } else { motion::mask(self.capacity, held) };
@@ -147,7 +147,7 @@ impl Problem {
     pub fn moved(self, motions: &[Motion], dt: f64) -> Self {
         Self { motions: Arc::new(motions.to_vec()), dt, ..self }
     }
-    /// The same with these births and drains; `has_inactive` where some particles may not be active without them too.
+    /// The same with these births and drains; `has_inactive`: some particles may be inactive even without them.
     #[must_use]
     pub fn with_life(self, births: &[Birth], drains: &[Drain], has_inactive: bool) -> Self {
         let has_inactive = has_inactive || !births.is_empty() || !drains.is_empty();
@@ -158,12 +158,12 @@ impl Problem {
     pub fn active(&self) -> Source {
         if self.has_inactive { crate::shader!("life/active.wgsl") } else { crate::shader!("life/all_active.wgsl") }
     }
-    /// The same, of which so many rows at the end are free.
+    /// The same, with `free` free rows at the end.
     #[must_use]
     pub fn with_free(self, free: u32) -> Self {
         Self { particles: self.capacity.saturating_sub(free).max(1), ..self }
     }
-    /// The same with ids apart from rows, or not.
+    /// The same with ids separate from rows, or not.
     #[must_use]
     pub fn with_ids(self, has_ids: bool) -> Self {
         Self { has_ids, ..self }
@@ -181,7 +181,7 @@ impl Problem {
         }
         (crate::shader!("motion/held.wgsl"), vec![("held".into(), self.mask.clone())])
     }
-    /// Joins that file with files of which one calls the function, and gives the table.
+    /// Adds that file if one of the files calls the function, and returns the table.
     pub(crate) fn hold(&self, files: &mut Vec<Source>) -> Vec<Table> {
         if !files.iter().any(|file| file.says(&["is_held", "("])) {
             return Vec::new();
@@ -200,18 +200,18 @@ impl Problem {
     pub fn breaking(self, breaks: bool) -> Self {
         Self { breaks, ..self }
     }
-    /// The same with equations solved so well.
+    /// The same with these tolerances of implicit integrators.
     #[must_use]
     pub fn solved(self, solver: Solver) -> Self {
         Self { solver, ..self }
     }
-    /// How many are of a species; of none in particular: all.
+    /// The number of particles of a species; of all particles for `None`.
     #[must_use]
     pub fn count_of(&self, species: Option<u32>) -> u32 {
         let Some(wanted) = species.filter(|_| !self.species.is_empty()) else { return self.particles };
         self.species.iter().find(|(kind, _)| *kind == wanted).map_or(0, |(_, count)| *count)
     }
-    /// The `override`s of a shader that the problem decides.
+    /// The values of a shader's `override`s that depend on the problem.
     #[must_use]
     pub fn constants(&self, shader: &Shader) -> Vec<(&'static str, f64)> {
         let periodic = shader.reflection().overrides.contains_key("PERIODIC") && self.bounds.has(Side::Periodic);

@@ -1,5 +1,5 @@
 //! Reflection of a shader by naga: bindings, strides of elements, size of a workgroup.
-//! This is the only place that knows binding numbers, and it reads them out of the WGSL.
+//! It is the only code that uses binding numbers, and it reads them from the WGSL.
 
 use std::collections::BTreeMap;
 
@@ -10,7 +10,7 @@ use super::Array;
 use super::pack::{Member, Packed};
 use super::unused_word::UNUSED_WORD;
 
-/// How a shader uses a name.
+/// The access of a shader to a binding.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Access {
     /// `var<uniform>`
@@ -21,7 +21,7 @@ pub enum Access {
     Write,
 }
 
-/// A name and where it is bound.
+/// A binding: its name and its numbers.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Binding {
     /// The field's name.
@@ -30,21 +30,21 @@ pub struct Binding {
     pub group: u32,
     /// `@binding`
     pub binding: u32,
-    /// How it is used.
+    /// Its access.
     pub access: Access,
-    /// Bytes of one element of an array, or of the whole when it is no array.
+    /// Bytes of one element of an array, or of the whole if it is not an array.
     pub stride: u64,
-    /// Whether it is an array that grows with the particles.
+    /// Whether it is a runtime-sized array.
     pub array: bool,
-    /// Whether its numbers are `f32`; else they are `u32`, atomic or not.
+    /// Whether its numbers are `f32`; otherwise they are `u32`, atomic or not.
     pub float: bool,
-    /// The members, when it is a struct or an array of them, without the word that nothing reads.
+    /// The members of a struct or of the elements of an array, without the unused word.
     pub packed: Packed,
     /// Vectors or numbers in one element: those of a struct of nothing but `vec4f`, or of nothing but `f32`; else 1.
     pub parts: usize,
 }
 
-/// A shader's outside.
+/// The interface of a shader.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Reflection {
     /// The entry point.
@@ -53,18 +53,18 @@ pub struct Reflection {
     pub workgroup: u32,
     /// Bytes of workgroup memory.
     pub workgroup_bytes: u64,
-    /// What is bound.
+    /// Its bindings.
     pub bindings: Vec<Binding>,
-    /// Its `override`s, with their defaults, where they have some.
+    /// Its `override`s, with their defaults, if any.
     pub overrides: BTreeMap<String, Option<f64>>,
-    /// Its whole-numbered `const`s.
+    /// Its integer `const`s.
     pub constants: BTreeMap<String, u32>,
     /// Whether it reads `world.time`.
     pub reads_time: bool,
 }
 
 impl Binding {
-    /// An array of its kind on the host, with so many zeros.
+    /// An array of its kind on the host, with `len` zeros.
     #[must_use]
     pub fn zeros(&self, len: usize) -> Array {
         let parts = self.parts.max(1) as u64;
@@ -78,7 +78,7 @@ impl Binding {
 }
 
 impl Reflection {
-    /// Looks at a module; the shader is expected to have one entry point. What that does not use is not bound.
+    /// Reflects a module, which must have one entry point. Variables that the entry point does not use are not bound.
     #[must_use]
     pub fn of(module: &Module, info: &ModuleInfo) -> Self {
         let entry = module.entry_points.first();
@@ -99,12 +99,12 @@ impl Reflection {
     pub fn binding(&self, name: &str) -> Option<&Binding> {
         self.bindings.iter().find(|b| b.name == name)
     }
-    /// Those of some values for `override`s that it has.
+    /// Those of some constants for which it has an `override`.
     #[must_use]
     pub fn known(&self, constants: &[(&'static str, f64)]) -> Vec<(&'static str, f64)> {
         constants.iter().filter(|(name, _)| self.overrides.contains_key(*name)).copied().collect()
     }
-    /// A whole-numbered `const`, or 1.
+    /// An integer `const`, or 1.
     #[must_use]
     pub fn constant(&self, name: &str) -> u32 {
         self.constants.get(name).copied().unwrap_or(1)
@@ -121,7 +121,7 @@ fn default(module: &Module, item: &naga::Override) -> Option<(String, Option<f64
     Some((item.name.clone()?, value))
 }
 
-/// Whether any function takes this member of this variable.
+/// Whether any function reads this member of this variable.
 fn reads(module: &Module, variable: &str, member: &str) -> bool {
     let functions = module.functions.iter().map(|(_, f)| f).chain(module.entry_points.iter().map(|e| &e.function));
     functions.flat_map(|f| f.expressions.iter().map(move |(_, e)| (f, e))).any(|(function, expression)| {
@@ -177,7 +177,7 @@ fn binding(module: &Module, variable: &naga::GlobalVariable) -> Option<Binding> 
     Some(Binding { name, group: place.group, binding: place.binding, access, stride, array, float, packed, parts })
 }
 
-/// How many `vec4f`, or how many `f32`, a struct is made of, if it is made of one of them alone.
+/// The number of `vec4f`, or of `f32`, in a struct that has members of only one of these types.
 fn alike(module: &Module, element: &TypeInner) -> Option<usize> {
     let TypeInner::Struct { members, .. } = element else { return None };
     let all = |wanted: &dyn Fn(&TypeInner) -> bool| members.iter().all(|m| wanted(&module.types[m.ty].inner));

@@ -1,26 +1,26 @@
-//! Loops on the device: each iteration is dispatched indirectly, with arguments that the previous one has written.
+//! Loops on the device: each iteration is dispatched indirectly, with arguments written by the previous one.
 //!
-//! Every iteration but the first has arguments of its own, zero before the loop begins. [`proceed`] runs at the end of an
-//! iteration, dispatched like the rest of it, and gives the next one its workgroups unless the flag is set. So the first
-//! iteration after that dispatches nothing, nor does any behind it. [`reset`] runs behind the loop, and makes all zero again.
+//! Every iteration but the first has arguments of its own, zero before the loop begins. [`proceed`] runs at the end of an iteration,
+//! dispatched like the rest of it, and sets the workgroups of the next one unless the flag is set. So the next iteration dispatches
+//! nothing, nor does any later one. [`reset`] runs after the loop, and sets all arguments to zero again.
 
 use std::sync::Arc;
 
 use super::{Flag, Host, Kernel, Shader};
 use crate::error::Error;
 
-/// The workgroups of the dispatches of an iteration.
+/// The workgroup counts of the dispatches of an iteration.
 pub const WORKGROUPS: &str = "workgroups";
-/// The arguments of iterations, of those that [`proceed`] writes.
+/// The arguments of the iterations that [`proceed`] writes.
 pub const ARGUMENTS: &str = "arguments";
-/// Iterations that are done.
+/// The number of completed iterations.
 pub const ITERATIONS: &str = "iterations";
 /// The arguments of the iterations 1, 3, 5 …
 pub const ODD: &str = "odd";
 /// The arguments of the iterations 2, 4, 6 …
 pub const EVEN: &str = "even";
 
-/// Gives the next iteration its arguments, which are so many words of `slots` times as many, unless a flag is set.
+/// Sets the arguments of the next iteration, `words` words among those of `slots` iterations, unless a flag is set.
 ///
 /// # Errors
 /// When the shader does not compile.
@@ -51,7 +51,7 @@ pub fn proceed(flag: &Flag, words: u32, slots: u32) -> Result<Kernel, Error> {
     Ok(kernel)
 }
 
-/// Takes the arguments of all iterations away: so many words of odd ones, and of even ones.
+/// Sets the arguments of all iterations to zero: `words` words of odd ones, and of even ones.
 ///
 /// # Errors
 /// When the shader does not compile.

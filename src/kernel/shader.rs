@@ -1,4 +1,4 @@
-//! Shaders: plain WGSL files joined by the host. Module scope in WGSL does not care about order.
+//! Shaders: plain WGSL files joined by the host. The order of declarations at module scope is free in WGSL.
 
 mod joined;
 
@@ -15,13 +15,13 @@ use crate::error::Error;
 /// One file of WGSL.
 #[derive(Debug, Clone, PartialEq, Eq, Hash)]
 pub struct Source {
-    /// The name that messages give.
+    /// Its name in messages.
     pub file: Cow<'static, str>,
-    /// What is in it.
+    /// Its text.
     pub text: Cow<'static, str>,
-    /// Whether it comes with this crate. A user's file runs with every check switched on.
+    /// Whether it is part of this crate. A user's file runs with all run-time checks.
     pub ours: bool,
-    /// Whether it is a user's law, which is held to what a law may do.
+    /// Whether it is a user's law, which is validated by `own`.
     pub law: bool,
 }
 
@@ -41,8 +41,7 @@ impl Source {
     pub fn law(file: String, text: String) -> Self {
         Self { law: true, ..Self::theirs(file, text) }
     }
-    /// What is wrong with a function of this file, if it has one of that name and it is not as `signature` says: a message with
-    /// the place.
+    /// The fault of a function of this file, if there is one of that name that differs from `signature`: a message with the position.
     #[must_use]
     pub fn mismatch(&self, signature: &str) -> Option<String> {
         own::mismatch(self, signature)
@@ -52,12 +51,12 @@ impl Source {
     pub fn has_loops(&self) -> bool {
         own::has_loops(&self.text)
     }
-    /// The text that is compiled: in a user's file `params` begins with a word that nothing reads.
+    /// The text that is compiled: in a user's file, `params` begins with an unused word.
     #[must_use]
     pub(super) fn compiled(&self) -> Cow<'_, str> {
         if self.ours { Cow::Borrowed(&self.text) } else { with_unused_word(&self.text) }
     }
-    /// The place in the file that a place in the compiled text stands for.
+    /// The position in the file that corresponds to a position in the compiled text.
     #[must_use]
     pub(super) fn written(&self, compiled: usize) -> usize {
         if self.ours { compiled } else { written(&self.text, compiled) }
@@ -104,7 +103,7 @@ impl Joined {
     }
 }
 
-/// Joined WGSL with what naga says of it.
+/// Joined WGSL with its reflection.
 #[derive(Debug)]
 pub struct Shader {
     sources: Vec<Source>,
@@ -114,10 +113,10 @@ pub struct Shader {
 }
 
 impl Shader {
-    /// Joins files, parses and validates them; what was joined before and is still in use is taken again.
+    /// Joins, parses and validates files; a result that is still in use is shared.
     ///
     /// # Errors
-    /// [`Error::Shader`] with file, line and caret of naga's complaint.
+    /// [`Error::Shader`] with file, line and caret of naga's message.
     pub fn join(sources: &[Source]) -> Result<Arc<Self>, Error> {
         joined::once(sources, || Self::joined(sources))
     }
@@ -156,7 +155,7 @@ impl Shader {
     pub fn text(&self) -> &str {
         &self.text
     }
-    /// What is bound, and how large things are.
+    /// Its bindings and sizes.
     #[must_use]
     pub fn reflection(&self) -> &Reflection {
         &self.reflection
@@ -174,7 +173,7 @@ impl Shader {
         let bytes = |binding: &Binding| Ok((name, binding.packed.pack(whose, values)?));
         self.reflection.binding(name).map(bytes).into_iter().collect()
     }
-    /// Whether all of it comes with this crate.
+    /// Whether all of its files are part of this crate.
     #[must_use]
     pub fn trusted(&self) -> bool {
         self.sources.iter().all(|s| s.ours)

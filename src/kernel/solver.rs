@@ -1,24 +1,23 @@
-//! How well implicit integrators solve.
+//! The tolerances of implicit integrators.
 
 use crate::error::Error;
 
-/// How well implicit integrators solve their equations.
+/// The tolerances and iteration limits of implicit integrators.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Solver {
-    /// What may be left of the residual, as a part of the first one of the step.
+    /// The tolerance of the residual, relative to the first one of the step.
     pub tolerance: f64,
-    /// Iterations of conjugate gradients in one linear solve, at most. Those that are not needed cost a dispatch that
-    /// does nothing.
+    /// The maximum number of conjugate-gradient iterations in one linear solve. Each unneeded one costs a dispatch that does nothing.
     pub iterations: u32,
-    /// Linear solves of Newton's method in one step, at most; the linear forms do one.
+    /// The maximum number of linear solves of Newton's method in one step; the linear integrators do one.
     pub solves: u32,
 }
 
-/// The best that single precision is sure to reach: its floor is at about 5e-7.
+/// The smallest tolerance that single precision reliably reaches: its floor is at about 5e-7.
 pub const LEAST_TOLERANCE: f64 = 1e-6;
-/// Iterations, at most: a step is written out in full.
+/// The limit of iterations: a step is written out in full.
 pub const MOST_ITERATIONS: u32 = 10_000;
-/// Solves, at most.
+/// The limit of solves.
 pub const MOST_SOLVES: u32 = 100;
 
 impl Default for Solver {
@@ -28,10 +27,10 @@ impl Default for Solver {
 }
 
 impl Solver {
-    /// Whether it can be done.
+    /// Checks whether the numbers are valid.
     ///
     /// # Errors
-    /// [`Error::Scene`] with the number that makes no sense.
+    /// [`Error::Scene`] with the invalid number.
     pub fn check(&self) -> Result<(), Error> {
         let Self { tolerance, iterations, solves } = *self;
         if !(LEAST_TOLERANCE..1.0).contains(&tolerance) {

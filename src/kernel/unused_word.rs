@@ -1,16 +1,16 @@
-//! The first word of every uniform block, which nothing reads.
+//! The first word of every uniform block, which is never read.
 //!
-//! lavapipe of Mesa 22.2 to 23.0 takes branches that depend on a uniform block for worth compiling with the block's values
-//! in them: it compiles such a shader anew at every dispatch, and frees none of them. It always takes the word at offset 0
-//! of the block. Where no branch depends on that word nothing is gained, and it compiles once.
+//! lavapipe of Mesa 22.2 to 23.0 specializes branches that depend on a uniform block on the block's values: it recompiles such a shader at
+//! every dispatch, and frees none of the results. It always includes the word at offset 0 of the block. Where no branch depends on that
+//! word there is no specialization, and it compiles once.
 
 use std::borrow::Cow;
 
 use super::own::tokens;
 
-/// The name of the word. Reflection leaves it out of a block's members, so that no value is asked for.
+/// The name of the word. Reflection leaves it out of a block's members, so that no value is required.
 pub const UNUSED_WORD: &str = "unused_word";
-/// What is put into a user's struct, in the line of its brace.
+/// The text inserted into a user's struct, in the line of its brace.
 const MEMBER: &str = " unused_word: u32,";
 
 /// A user's text with the word in front of the members of `params`.
@@ -21,7 +21,7 @@ pub fn with_unused_word(text: &str) -> Cow<'_, str> {
     }
 }
 
-/// The place in a user's text that a place in the compiled text stands for.
+/// The position in a user's text that corresponds to a position in the compiled text.
 pub fn written(text: &str, compiled: usize) -> usize {
     match place(text) {
         Some(at) if compiled > at => compiled.saturating_sub(MEMBER.len()).max(at),
@@ -29,8 +29,8 @@ pub fn written(text: &str, compiled: usize) -> usize {
     }
 }
 
-/// Just behind the brace of the struct that `params` is of. None where there is no such struct, where it has the word
-/// already, and where values of the struct are written down member by member.
+/// The position just after the brace of the struct that is the type of `params`. `None` where there is no such struct, where it has the
+/// word already, or where values of the struct are constructed member by member.
 fn place(text: &str) -> Option<usize> {
     let tokens = tokens(text);
     let find = |wanted: &[&str]| {

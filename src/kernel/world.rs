@@ -12,11 +12,11 @@ pub struct World {
     pub dt: f64,
     /// Steps done.
     pub step: u32,
-    /// Rows in use: particles, and those between them that have been removed.
+    /// Rows in use: particles, and removed ones between them.
     pub count: u32,
-    /// Free rows behind those.
+    /// Free rows after those.
     pub free: u32,
-    /// Where they may be.
+    /// The box and its boundaries.
     pub bounds: Bounds,
 }
 
@@ -44,7 +44,7 @@ impl World {
             ("frequency", Scalar::Vector(self.bounds.frequency())),
         ]
     }
-    /// What of it changes as a device runs, read back; the rest is as it was.
+    /// Updates the members that change on the device from data read back.
     #[must_use]
     pub fn updated(self, packed: &Packed, bytes: &[u8]) -> Self {
         Self {

@@ -5,10 +5,10 @@ use crate::error::Error;
 use crate::motion::Held;
 use crate::solids::Solid;
 
-/// Whether they make sense for `count` particles in so many dimensions, some of which are held.
+/// Checks births and drains for `count` particles in `dimensions` dimensions, some of which are fixed.
 ///
 /// # Errors
-/// [`Error::Scene`] that names the first particle or drain at fault.
+/// [`Error::Scene`] that names the first invalid particle or drain.
 pub fn check(
     (life, births, drains): (&[Life], &[Birth], &[Drain]),
     held: &[Held],

@@ -1,5 +1,5 @@
-//! Life of particles: births by a schedule, and drains. How many particles there are is fixed for a run, and so are their ids: a particle that is
-//! to be spawned is pending among them from the start, and a removed one stays among them, so that no id is ever used twice.
+//! Life of particles: scheduled births, and drains. The number of particles and their ids are constant during a run: a particle to be
+//! spawned is included as pending from the start, and a removed one stays included, so that no id is ever reused.
 
 mod check;
 mod population;
@@ -26,53 +26,53 @@ pub enum Life {
 }
 
 impl Life {
-    /// The word that shaders and files know it by: 0, 1 or 2.
+    /// Its value in shaders and files: 0, 1 or 2.
     #[must_use]
     pub fn word(self) -> u32 {
         self as u32
     }
-    /// What a word stands for, if for anything.
+    /// The life with this value, if there is one.
     #[must_use]
     pub fn of(word: u32) -> Option<Self> {
         [Self::Pending, Self::Active, Self::Removed].into_iter().find(|life| life.word() == word)
     }
 }
 
-/// When and how a pending particle is spawned. At the end of the first step that reaches its time it is placed where it would be
-/// if it had left its initial position at that time, at this velocity. Only pending particles are spawned.
+/// The time and the velocity at which a pending particle is spawned. At the end of the first step that reaches this time it is placed where
+/// it would be if it had left its initial position at that time with this velocity. Only pending particles are spawned.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Birth {
     /// Its id.
     pub id: u32,
     /// The time \[time\].
     pub time: f64,
-    /// How it moves \[length / time\].
+    /// The velocity \[length / time\].
     pub velocity: DVec3,
     /// Mass \[mass\].
     pub mass: f64,
-    /// How long it moves at constant velocity without forces, so that the jet ahead of it has pressure behind it \[time\].
+    /// The duration of its motion at constant velocity without forces, so that the jet ahead of it is under pressure \[time\].
     pub guided: f64,
-    /// The emitter that it is of, as a number that messages know it by.
+    /// The number of its emitter, for messages.
     pub emitter: u32,
 }
 
 /// A drain: a region in which particles are removed at the end of a step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Drain {
-    /// Its shape. A plane is the half space that its normal points away from.
+    /// Its shape. A plane is the half space opposite to its normal.
     pub solid: Solid,
     /// Its centre; of a plane a point on it \[length\].
     pub position: DVec3,
     /// Whether particles are removed outside of the shape instead of inside.
     pub outside: bool,
-    /// The species that it removes; all, but fixed particles, where none is named.
+    /// The species that it removes; `None`: all. Fixed particles are never removed.
     pub species: Option<u32>,
 }
 
 /// Words of a birth in the table that `shaders/life/spawn.wgsl` reads.
 const WORDS: usize = 8;
 
-/// That table, one `Birth` of the shader behind another.
+/// That table, one `Birth` of the shader after another.
 #[doc(hidden)]
 #[must_use]
 pub fn table(births: &[Birth]) -> Vec<u32> {

@@ -1,9 +1,9 @@
-//! Rods as chains: open ways from particle to particle. Fixed particles are not pulled, so that chains end at them.
+//! Rods as chains: open sequences of particles. Fixed particles cannot be moved, so that chains end at them.
 
 use super::Rod;
 use crate::error::Error;
 
-/// Rods of one chain: one invocation iterates over it 24 times, and some drivers end loops after 65 535 iterations.
+/// The maximum number of rods in one chain: one invocation iterates over it 24 times, and some drivers end loops after 65 535 iterations.
 pub const MOST_RODS: u32 = 2_700;
 
 /// A particle in a chain.
@@ -11,9 +11,9 @@ pub const MOST_RODS: u32 = 2_700;
 pub struct Node {
     /// Its id.
     pub id: u32,
-    /// Whether forces do not move it.
+    /// Whether it is fixed or kinematic.
     pub held: bool,
-    /// The length of the rod that leads to it; of none to the first one \[length\].
+    /// The length of the rod from the previous particle; 0 for the first one \[length\].
     pub length: f64,
 }
 
@@ -22,11 +22,11 @@ pub struct Node {
 pub struct Chains(pub Vec<Vec<Node>>);
 
 impl Chains {
-    /// Sorts rods into chains. A rod that has no free end is none.
+    /// Sorts rods into chains. A rod without a mobile end belongs to no chain.
     ///
     /// # Errors
-    /// [`Error::Scene`] with the particle where they branch or close, with the rod that nothing can move, or with the
-    /// length of a chain that is too long.
+    /// [`Error::Scene`] with the particle where they branch or close, with the rod that cannot move, or with the length of a chain that is
+    /// too long.
     pub fn new(rods: &[Rod], held: &[u32]) -> Result<Self, Error> {
         let mut held = held.to_vec();
         held.sort_unstable();
@@ -82,7 +82,7 @@ impl Chains {
         }
         Ok(Self(chains))
     }
-    /// How many.
+    /// The number of chains.
     #[must_use]
     pub fn len(&self) -> usize {
         self.0.len()
@@ -92,7 +92,7 @@ impl Chains {
     pub fn is_empty(&self) -> bool {
         self.0.is_empty()
     }
-    /// Where each chain begins among all nodes, and one behind the last.
+    /// The index of the first node of each chain, and the number of nodes.
     #[must_use]
     pub fn starts(&self) -> Vec<u32> {
         let mut starts = vec![0];

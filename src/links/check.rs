@@ -6,10 +6,10 @@ use super::{Link, Links, MOST_LINKS, Rod};
 use crate::error::Error;
 
 impl Links {
-    /// Whether all of them tie particles that there are, once, with numbers that make sense.
+    /// Checks that links connect existing particles, each pair once, with valid numbers.
     ///
     /// # Errors
-    /// [`Error::Scene`] with the number of the first link that is at fault, counted from 0, and of its kind.
+    /// [`Error::Scene`] with the kind and the number of the first invalid link, counted from 0.
     pub fn check(&self, masses: &[f64]) -> Result<(), Error> {
         let mut pairs = BTreeSet::new();
         let mut degrees = vec![0u32; masses.len()];
@@ -48,10 +48,10 @@ impl Links {
 }
 
 impl Link {
-    /// Whether its numbers make sense; `what` names it.
+    /// Checks its numbers; `what` names it.
     ///
     /// # Errors
-    /// [`Error::Scene`] where they do not.
+    /// [`Error::Scene`] where they are invalid.
     pub fn check(&self, what: &str) -> Result<(), Error> {
         let numbers = [("rest length", self.rest), ("stiffness", self.stiffness), ("damping", self.damping)];
         numbers.iter().try_for_each(|(name, x)| not_negative(what, name, *x))?;
@@ -67,10 +67,10 @@ impl Link {
 }
 
 impl Rod {
-    /// Whether its length makes sense; `what` names it.
+    /// Checks its length; `what` names it.
     ///
     /// # Errors
-    /// [`Error::Scene`] where it does not.
+    /// [`Error::Scene`] where it is invalid.
     pub fn check(&self, what: &str) -> Result<(), Error> {
         not_negative(what, "length", self.length)?;
         if self.length == 0.0 {
@@ -80,7 +80,7 @@ impl Rod {
     }
 }
 
-/// Different particles, that are there and have a mass.
+/// Checks that particles are distinct, exist and have mass.
 fn apart(what: &str, ids: &[u32], masses: &[f64]) -> Result<(), Error> {
     for (place, id) in ids.iter().enumerate() {
         let Some(mass) = masses.get(*id as usize) else {

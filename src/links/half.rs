@@ -1,25 +1,25 @@
-//! A spring from one of its ends, as a reference reads it.
+//! A spring as seen from one of its ends, for references.
 
 /// Words of a spring in the table of links.
 pub const WORDS: usize = 4;
 
-/// A spring from one of its ends.
+/// A spring as seen from one of its ends.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Half {
     /// The particle at the other end.
     pub partner: usize,
-    /// How long it is at rest \[length\].
+    /// The rest length \[length\].
     pub rest: f64,
-    /// Hooke's constant \[mass / time²\]; zero, and no damping, where it is broken.
+    /// The spring constant \[mass / time²\]; zero, like the damping, if it is broken.
     pub stiffness: f64,
-    /// What resists a change of its length \[mass / time\].
+    /// The damping along the spring \[mass / time\].
     pub damping: f64,
-    /// Whether it only pulls.
+    /// Whether it is a rope, which only pulls.
     pub rope: bool,
 }
 
 impl Half {
-    /// Reads the words of one.
+    /// Reads the words of a spring.
     #[must_use]
     pub fn new(words: &[u32]) -> Self {
         let float = |place: usize| words.get(place).map_or(0.0, |bits| f64::from(f32::from_bits(*bits)));
@@ -27,21 +27,21 @@ impl Half {
         let (stiffness, damping) = (float(2), float(3));
         Self { partner, rest: float(1).abs(), stiffness, damping, rope: float(1) < 0.0 }
     }
-    /// Whether it holds nothing any more.
+    /// Whether it is broken.
     #[must_use]
     pub fn is_broken(&self) -> bool {
         self.stiffness == 0.0 && self.damping == 0.0
     }
 }
 
-/// Three particles of a joint or a triangle, as one of them sees it.
+/// Three particles of a joint or a triangle, as seen from one of them.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Corner {
     /// The three, in order.
     pub ids: [usize; 3],
-    /// Which of them one is.
+    /// The index of that one.
     pub place: usize,
-    /// What resists bending \[mass length² / time²\].
+    /// The bending stiffness \[mass length² / time²\].
     pub stiffness: f64,
 }
 
@@ -49,7 +49,7 @@ impl Corner {
     /// Words of a corner in its table.
     pub const WORDS: usize = 5;
 
-    /// Reads the words of one.
+    /// Reads the words of a corner.
     #[must_use]
     pub fn new(words: &[u32]) -> Self {
         let id = |place: usize| words.get(place).map_or(usize::MAX, |id| *id as usize);

@@ -1,5 +1,5 @@
-//! Links between particles: springs and ropes, rigid rods, joints that resist bending, and triangles in the
-//! wind. Plain lists, by the particles' ids; kernels see them as tables, each element from each of its particles.
+//! Links between particles: springs and ropes, rigid rods, joints that resist bending, and triangles in the wind. Plain lists, by the
+//! particles' ids; kernels use tables in which each element is stored with each of its particles.
 
 mod chains;
 mod check;
@@ -21,7 +21,7 @@ pub struct Link {
     pub ends: [u32; 2],
     /// The rest length \[length\]; zero: an isotropic spring, which pulls its ends together.
     pub rest: f64,
-    /// Hooke's constant \[mass / time²\].
+    /// The spring constant \[mass / time²\].
     pub stiffness: f64,
     /// The damping along the spring \[mass / time\].
     pub damping: f64,
@@ -34,7 +34,7 @@ pub struct Link {
 pub struct Rod {
     /// The ids of the two.
     pub ends: [u32; 2],
-    /// How long it is \[length\].
+    /// Its length \[length\].
     pub length: f64,
 }
 
@@ -67,7 +67,7 @@ impl Links {
     pub fn is_empty(&self) -> bool {
         self.springs.is_empty() && self.rods.is_empty() && self.joints.is_empty() && self.triangles.is_empty()
     }
-    /// Adds all of another set, whose ids begin at `first` here.
+    /// Adds all links of another set, whose ids are shifted by `first`.
     pub fn append(&mut self, other: &Self, first: u32) {
         let other = other.renumbered(&|id| Some(id.saturating_add(first)));
         self.springs.extend(other.springs);
@@ -75,7 +75,7 @@ impl Links {
         self.joints.extend(other.joints);
         self.triangles.extend(other.triangles);
     }
-    /// Those whose particles all have new ids, with these.
+    /// The links whose particles all have new ids, with these.
     #[must_use]
     pub fn renumbered(&self, new: &impl Fn(u32) -> Option<u32>) -> Self {
         let two = |[a, b]: [u32; 2]| Some([new(a)?, new(b)?]);

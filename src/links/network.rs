@@ -1,40 +1,40 @@
-//! Links as kernels see them: compressed adjacency, each element stored with each of its particles, in the order of the
-//! partners' ids, so that sums have one order and nothing is written twice.
+//! Links as tables for kernels: compressed adjacency, each element stored with each of its particles, in the order of the partners' ids, so
+//! that sums have one order and no value is written by two invocations.
 
 use std::sync::Arc;
 
 use super::{Half, Joint, Link, Links, Rod, WORDS};
 
-/// Links that one particle may have: one invocation loops over them, and some drivers end loops after 65 535 iterations.
+/// The maximum number of links of a particle: one invocation loops over them, and some drivers end loops after 65 535 iterations.
 pub const MOST_LINKS: u32 = 60_000;
 
-/// Kinds of springs that are kept apart; see `shaders/visit/links_alike.wgsl`.
+/// The maximum number of kinds of springs stored by kind; see `shaders/visit/links_alike.wgsl`.
 const MOST_KINDS: usize = 4;
 
-/// The tables of some links. A table of starts has one word for each particle, and one behind the last.
+/// The tables of some links. A table of starts has one word for each particle, and one more for the end.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Network {
-    /// How many particles.
+    /// The number of particles.
     pub count: u32,
-    /// Where each particle's springs begin.
+    /// The start of each particle's springs.
     pub link_start: Arc<Vec<u32>>,
     /// Four words for each end of a spring: partner, and as `f32` the rest length (negative: a rope), stiffness, damping.
     pub link: Arc<Vec<u32>>,
-    /// Where each particle's springs of each of four kinds begin, where there are no more; else nothing.
+    /// The start of each particle's springs of each of four kinds, if there are no more; otherwise empty.
     pub partner_start: Arc<Vec<u32>>,
-    /// The partners, in that order.
+    /// The partners, in the same order.
     pub partner: Arc<Vec<u32>>,
-    /// The kinds: four words as in `link`, of which the first says nothing.
+    /// The kinds: four words as in `link`, the first of which is unused.
     pub kind: Arc<Vec<u32>>,
-    /// Where each particle's joints begin.
+    /// The start of each particle's joints.
     pub joint_start: Arc<Vec<u32>>,
-    /// Five words for each corner: the three ids, which of them one is, and as `f32` the stiffness.
+    /// Five words for each corner: the three ids, the index of the particle among them, and as `f32` the stiffness.
     pub joint: Arc<Vec<u32>>,
-    /// Where each particle's triangles begin.
+    /// The start of each particle's triangles.
     pub triangle_start: Arc<Vec<u32>>,
     /// Five words for each corner, as for joints; the last is zero.
     pub triangle: Arc<Vec<u32>>,
-    /// The rods. How they make chains depends on which particles are fixed.
+    /// The rods. Their division into chains depends on which particles are fixed.
     pub rods: Arc<Vec<Rod>>,
 }
 
@@ -83,7 +83,7 @@ impl Network {
     pub fn damped(&self) -> bool {
         self.link.chunks_exact(WORDS).any(|words| words[3] != 0)
     }
-    /// How many springs there are, each counted from both ends.
+    /// The number of springs, each counted from both ends.
     #[must_use]
     pub fn ends(&self) -> u32 {
         self.link_start.last().copied().unwrap_or(0)
@@ -91,7 +91,7 @@ impl Network {
 }
 
 impl Links {
-    /// The same without springs that broke, by the words of the table of a network of these.
+    /// The same links without broken springs, by the words of the table of their network.
     #[must_use]
     pub fn intact(&self, network: &Network, table: &[u32]) -> Self {
         let holds = |link: &&Link| {
@@ -104,7 +104,7 @@ impl Links {
     }
 }
 
-/// A spring from one of its ends.
+/// A spring as seen from one of its ends.
 fn half(link: &Link, partner: usize) -> [u32; 4] {
     let rest = if link.rope { -link.rest } else { link.rest };
     [link.ends[partner], bits(rest), bits(link.stiffness), bits(link.damping)]
@@ -129,7 +129,7 @@ fn alike(count: u32, ends: &[(u32, [u32; WORDS])]) -> [Arc<Vec<u32>>; 3] {
         sorted.push((u64::from(*id) * MOST_KINDS as u64 + kind as u64, *partner));
     }
     sorted.sort_unstable();
-    // Kinds that there are not have no springs.
+    // Unused kinds have no springs.
     kinds.resize(MOST_KINDS, [0; 3]);
     let mut start = vec![0; (count as usize + 1) * MOST_KINDS + 1];
     for (key, _) in &sorted {
@@ -150,7 +150,7 @@ fn accumulate(start: &mut [u32]) {
     }
 }
 
-/// Sorts elements by their particle, and within one by their words, of which the first are ids.
+/// Sorts elements by their particle, and for each particle by their words, the first of which are ids.
 fn rows<const N: usize>(count: u32, mut elements: Vec<(u32, [u32; N])>) -> (Arc<Vec<u32>>, Arc<Vec<u32>>) {
     let mut start = vec![0; count as usize + 1];
     if elements.is_empty() {

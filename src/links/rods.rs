@@ -7,19 +7,19 @@ use glam::DVec3;
 use super::{Chains, Links};
 use crate::error::Error;
 
-/// Parts of its length by which a rod may be too long or too short at the start, and of the speeds of its ends by which
-/// it may grow: what a file of six digits loses.
+/// The relative error of a rod's length that is allowed at the start, and the part of the speeds of its ends by which it may change: the
+/// rounding of a file with six digits.
 const SLACK: f64 = 1e-5;
-/// Parts of its length to which positions must be held.
+/// The precision that is required of positions, relative to a rod's length.
 const FINE: f64 = 2e-4;
 
 impl Links {
-    /// Whether the rods make chains, and have their lengths where the particles are. Between fixed ones only `fixed` ones are
-    /// known to rest at the start; `shortest` gives the displacement to the nearest image.
+    /// Checks that the rods form chains, and that their lengths agree with the positions. Of two fixed ends only `fixed` ones are known to
+    /// be at rest at the start; `shortest` returns the displacement to the nearest image.
     ///
     /// # Errors
-    /// [`Error::Scene`] with what [`Chains::new`] says, or with the first rod that is too long, too short, too small for
-    /// single precision, or about to change its length.
+    /// [`Error::Scene`] as for [`Chains::new`], or with the first rod that is too long, too short, too small for single precision, or whose
+    /// length changes.
     pub fn check_rods(
         &self,
         [position, velocity]: [&[DVec3]; 2],
@@ -34,7 +34,7 @@ impl Links {
             let (Some(from), Some(to)) = (position.get(a), position.get(b)) else { continue };
             let (r, length) = (shortest(*to - *from), rod.length);
             let away = from.abs().max(to.abs()).max_element();
-            // Two places, each rounded by half a place.
+            // Two positions, each with a rounding error of half a unit in the last place.
             let rounding = away * f64::from(f32::EPSILON);
             if rounding > FINE * length {
                 return Err(Error::Scene(format!(

@@ -59,7 +59,7 @@ fn ask(
     Ok(host)
 }
 
-/// What a reference makes of inputs that are off by half a unit in the last place of single precision.
+/// The reference's results for inputs that are off by half a unit in the last place of single precision.
 fn sway(reference: &Reference, inputs: &[(&str, Option<&Array>)], world: World) -> Result<Host, Error> {
     // A multiplier of Knuth's: signs without a pattern.
     let mut state = 1u64;

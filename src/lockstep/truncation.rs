@@ -29,7 +29,7 @@ pub struct Truncation {
 /// particles, spread evenly over their ids. It overwrites accelerations.
 ///
 /// # Errors
-/// What the device says.
+/// Errors of the device.
 pub async fn truncation(
     gpu: &mut Gpu,
     forces: &[Box<dyn Component>],
@@ -42,7 +42,7 @@ pub async fn truncation(
         let law = force.laws().into_iter().find(|law| law.tree(problem).is_some());
         let Some((law, tree)) = law.and_then(|law| Some((law.clone(), law.tree(problem)?))) else { continue };
         let (Some(walk), Some(sample)) = (law.distant.walk.clone(), law.distant.sample.clone()) else { continue };
-        // Where the opening is relative, the last accelerations decide which nodes are opened.
+        // With the relative criterion, the last accelerations determine which nodes are opened.
         gpu.write(ACCELERATION.name, &last)?;
         let mut step = Step::new(std::slice::from_ref(force), problem.clone());
         step.evaluate();
@@ -51,7 +51,7 @@ pub async fn truncation(
         gpu.run(&program, 1)?;
         let host = host(gpu, &plan, problem).await?;
         let Some(Array::Vec4(device)) = host.get(ACCELERATION.name) else { continue };
-        // What a force adds beside this law, waves from afar, is the same for all three, and counts in what errors are of.
+        // Other contributions of a force, such as long-range waves, are the same for all three, and included in the reference magnitude of errors.
         let beside = beside(gpu, &plan, &law.name, &device, problem).await?;
         host.write(ACCELERATION)?.fill(DVec4::ZERO);
         walk(&host)?;
@@ -74,11 +74,11 @@ pub async fn truncation(
     Ok(all)
 }
 
-/// What the plan's kernels behind that of a law have added to it, on the device.
+/// The accelerations that the plan's kernels after that of a law have added, on the device.
 async fn beside(gpu: &mut Gpu, plan: &Plan, law: &str, all: &[DVec4], problem: &Problem) -> Result<Vec<DVec4>, Error> {
     let mut behind = plan.steps().skip_while(|kernel| kernel.name != law);
     let (Some(law), Some(_)) = (behind.next(), behind.next()) else { return Ok(vec![DVec4::ZERO; all.len()]) };
-    // The tree stands; accelerations are cleared and summed up again, by the law alone.
+    // The tree is built; accelerations are cleared and summed again, for this law only.
     let zeros = Array::Vec4(vec![DVec4::ZERO; all.len()]);
     gpu.write(ACCELERATION.name, &zeros)?;
     let program = gpu.compile(&Plan::of([law.clone()]))?;
@@ -88,7 +88,7 @@ async fn beside(gpu: &mut Gpu, plan: &Plan, law: &str, all: &[DVec4], problem: &
     Ok(all.iter().zip(own).map(|(all, own)| *all - own).collect())
 }
 
-/// What the fields of a plan hold, on the host.
+/// The fields of a plan, on the host.
 async fn host(gpu: &mut Gpu, plan: &Plan, problem: &Problem) -> Result<Host, Error> {
     let mut host = Host::default();
     for kernel in &plan.kernels {

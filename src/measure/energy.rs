@@ -42,14 +42,13 @@ pub struct Energy {
     pub potential: f64,
     /// Σ m v \[mass length / time\]
     pub momentum: DVec3,
-    /// Σ m x × v, about the origin \[mass length² / time\]; it jumps, and means nothing, where images count for each other
+    /// Σ m x × v, about the origin \[mass length² / time\]; in a periodic box it jumps, and is meaningless
     pub angular_momentum: DVec3,
-    /// Σ m x / Σ m; the mean position when all masses are zero \[length\]; in a periodic box it
-    /// depends on where the box begins
+    /// Σ m x / Σ m; the mean position when all masses are zero \[length\]; in a periodic box it depends on the corner of the box
     pub center: DVec3,
 }
 
-/// Particles in one partial sum. The partial sums are added in order, so that a sum has the same bits on any number of cores.
+/// Particles in one partial sum. The partial sums are added in order, so that a sum has the same bits for any number of threads.
 const CHUNK: usize = 4096;
 
 impl Energy {
@@ -97,7 +96,7 @@ impl Energy {
     pub fn total(&self) -> f64 {
         self.kinetic + self.potential
     }
-    /// How far the total is from that of another state, relative to it; absolute when that is zero.
+    /// The difference of the total to that of another state, relative to it; absolute when that is zero.
     #[must_use]
     pub fn drift_from(&self, first: &Self) -> f64 {
         let change = self.total() - first.total();

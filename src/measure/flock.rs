@@ -52,8 +52,8 @@ pub struct Flock {
     pub step: u64,
     /// The time.
     pub time: f64,
-    /// |Σ v / |v|| / N over all that move: 1 when all head the same way, about 1 / √N when each goes its own
-    /// (Vicsek et al. 1995). 0 when none moves.
+    /// |Σ v / |v|| / N over all moving particles: 1 when all velocities are parallel, about 1 / √N for random directions (Vicsek et al.
+    /// 1995). 0 when no particle moves.
     pub order: f64,
     /// The mean speed \[length / time\].
     pub speed: f64,
@@ -63,15 +63,15 @@ pub struct Flock {
     pub most_neighbors: u32,
     /// Sets of particles that are joined by chains of neighbours (friends of friends; Davis et al. 1985).
     pub clusters: u32,
-    /// The part of all particles that is in the largest of them.
+    /// The fraction of all particles in the largest of them.
     pub largest: f64,
 }
 
-/// Particles whose neighbours are held at once.
+/// Particles whose neighbours are in memory at once.
 const CHUNK: usize = 16_384;
 
 impl Flock {
-    /// Measures a state; its pairs within `range`, if that is given; of one species, if that is given.
+    /// Measures a state; its pairs within `range`, and only one species, if these are given.
     ///
     /// # Errors
     /// [`Error::Scene`] when the range is not a positive number.

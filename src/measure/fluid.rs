@@ -1,4 +1,4 @@
-//! The ledger of a fluid: what must stay, and what must not happen, summed in f64.
+//! The ledger of a fluid: conserved quantities and failures, summed in f64.
 
 use glam::DVec3;
 
@@ -42,7 +42,7 @@ pub const MEASURE: Measure = Measure {
     },
 };
 
-/// What a fluid has at a time, without fixed particles, which are its walls. A row of `fluid.csv`.
+/// The quantities of a fluid at a time, without fixed particles, which are its walls. A row of `fluid.csv`.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Ledger {
     /// Steps done.
@@ -57,19 +57,19 @@ pub struct Ledger {
     pub momentum: DVec3,
     /// ½ Σ m v² \[mass length² / time²\]
     pub kinetic: f64,
-    /// The potential energy without the internal one: that of weight and other forces \[mass length² / time²\]
+    /// The potential energy without the internal one: that of gravity and other forces \[mass length² / time²\]
     pub potential: f64,
-    /// Σ m ∫ p / ρ² dρ, by the equation of state; 0 where sound has no speed \[mass length² / time²\]
+    /// Σ m ∫ p / ρ² dρ, by the equation of state; 0 where there is no speed of sound \[mass length² / time²\]
     pub internal: f64,
     /// The largest of ρ/ρ₀ − 1, where it is above 0.
     pub worst_density: f64,
-    /// Its particle.
+    /// The particle with that density.
     pub worst_particle: u32,
     /// The mean of max(ρ/ρ₀ − 1, 0).
     pub mean_density: f64,
-    /// Particles out of the box, along axes where it has an extent: open ones too. It must stay 0.
+    /// Particles outside the box, along axes where it has an extent, including open ones. It must stay 0.
     pub outside: u64,
-    /// Particles with a number that is none. It must stay 0.
+    /// Particles with a number that is not finite. It must stay 0.
     pub broken: u64,
 }
 
@@ -89,7 +89,7 @@ impl Ledger {
         let energies = snapshot.energies()?;
         let mut ledger = Self { step: snapshot.step, time: snapshot.time, ..Self::default() };
         let extent: Vec<usize> = (0..3).filter(|axis| bounds.high[*axis] > bounds.low[*axis]).collect();
-        // Single precision may put a particle at a side just behind it.
+        // Single precision may put a particle just beyond a side.
         let slack = f64::from(f32::EPSILON) * bounds.low.abs().max(bounds.high.abs());
         let sounds = medium.sound > 0.0;
         let ids = particles.ids();
@@ -128,7 +128,7 @@ impl Ledger {
     }
 }
 
-/// The book, of a run that has a fluid.
+/// The ledger of a run that has a fluid.
 #[derive(Debug)]
 pub struct Book {
     medium: Medium,
@@ -140,12 +140,12 @@ pub struct Book {
     worst: Ledger,
     /// The largest of the mean density errors.
     mean: f64,
-    /// What is to be said, and was not yet.
+    /// The next warning, if it was not given yet.
     warning: Option<String>,
 }
 
 impl Book {
-    /// The book of a setup; none where nothing flows.
+    /// The ledger of a setup; `None` without a fluid.
     fn of(setup: &Setup) -> Result<Option<Self>, Error> {
         let problem = setup.problem(Machine::HOST)?;
         for force in &setup.forces {
@@ -221,7 +221,7 @@ impl Series for Book {
             broken: whole(17),
             ..Ledger::default()
         });
-        // That was said before.
+        // The warning was given before.
         self.warning = None;
     }
     fn summary(&self) -> Option<String> {
@@ -232,7 +232,7 @@ impl Series for Book {
         } else {
             format!("UP TO {} OUTSIDE OF THE BOX AND {} NOT FINITE", worst.outside, worst.broken)
         };
-        // Walls weigh something too, and the energy of a run counts them.
+        // Walls have mass too, and the energy of a run includes it.
         let which = if self.held.contains(&true) { " without walls" } else { "" };
         Some(format!(
             "fluid: mass {:.6e} ({lost:+.1e}), energy{which} {:.4e} → {:.4e}, too dense by {:.2} % at most (particle {} at {:.4}), {:.3} % in \

@@ -15,26 +15,26 @@ use crate::error::Error;
 use crate::settings::{Key, Settings};
 use crate::simulation::Setup;
 
-/// A measure: what a scene calls it, and the table that a run writes of it, `NAME.csv`.
+/// A measure: its name in scenes, and the table that a run writes of it, `NAME.csv`.
 pub struct Measure {
-    /// Its word in a scene, and the stem of its table.
+    /// Its name in scenes, and the stem of its table.
     pub name: &'static str,
-    /// What it measures: one line for a list.
+    /// A description in one line.
     pub about: &'static str,
-    /// What a scene may say of it.
+    /// Its settings.
     pub keys: &'static [Key],
-    /// The cells of a row behind step and time, each with its meaning and its unit.
+    /// The cells of a row after step and time, each with its meaning and its unit.
     pub cells: &'static [(&'static str, &'static str)],
-    /// The settings with which a run takes it though its scene does not name it; `None` where it does not.
+    /// The settings with which a run takes it by default; `None` if it does not.
     pub usual: fn(&Setup) -> Result<Option<Settings>, Error>,
     /// Begins a series of it.
     ///
     /// # Errors
-    /// [`Error::Setting`] and [`Error::Scene`] where there is nothing to measure in such a run.
+    /// [`Error::Setting`] and [`Error::Scene`] where the run has nothing to measure.
     pub begin: Begin,
 }
 
-/// What begins a series of a run with such settings.
+/// A function that begins a series of a run with such settings.
 pub type Begin = fn(&Setup, &Settings) -> Result<Box<dyn Series>, Error>;
 
 impl Measure {

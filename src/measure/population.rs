@@ -42,7 +42,7 @@ impl Series for Counts {
         let counts = [of.pending, of.active, of.removed, of.active + of.removed].map(|count| count as f64);
         Ok(vec![counts.into_iter().chain([mass]).map(Into::into).collect()])
     }
-    // A run that goes on counts again before it ends.
+    // A run that continues counts again before it ends.
     fn recall(&mut self, _: u64, _: &[&str]) {}
     fn summary(&self) -> Option<String> {
         let of = self.0?;

@@ -54,7 +54,7 @@ pub const MEASURE: Measure = Measure {
     },
 };
 
-/// Points: each is a row of every output.
+/// The maximum number of points: each is a row of every output.
 const MOST: u64 = 100_000;
 
 /// Points at which states are measured.

@@ -60,7 +60,7 @@ pub const MEASURE: Measure = Measure {
 };
 
 const ALL: (Kind, Value) = (Kind::Species, Value::Text(Cow::Borrowed("all")));
-/// Intervals: each is a row of every output.
+/// The maximum number of intervals: each is a row of every output.
 const MOST: usize = 100_000;
 
 /// Counts of distances.
@@ -98,7 +98,7 @@ impl Distances {
         let bins = chosen.fold(zeros, add).reduce(zeros, both);
         let number = |of: &dyn Fn(usize) -> bool| (0..places.len()).filter(|i| of(*i)).count() as u64;
         let [centres, others] = self.pair.map(|of| number(&|i| is(i, of)));
-        // A particle is not around itself.
+        // A particle is not its own neighbour.
         let pairs = centres * others - number(&|i| is(i, centre) && is(i, around));
         Ok((bins, pairs, centres))
     }

@@ -9,33 +9,33 @@ use crate::links::Links;
 use crate::simulation::Clock;
 use crate::state::State;
 
-/// The state of an output, and what is known beside it.
+/// The state of an output, with further data.
 #[derive(Debug, Clone, Copy)]
 pub struct Moment<'a> {
-    /// The state, which a writer that works on a thread of its own shares. For a measure it has the column `potential`.
+    /// The state, which is shared with writers that use a thread of their own. For a measure it has the column `potential`.
     pub state: &'a Arc<State>,
-    /// The densities of a fluid, by row; none where there is no fluid.
+    /// The densities of a fluid, by row; empty where there is no fluid.
     pub density: &'a [f32],
     /// The clock, where steps are adaptive.
     pub clock: Option<&'a Clock>,
-    /// The links that are left, where they may break.
+    /// The remaining links, where they may break.
     pub links: Option<&'a Links>,
 }
 
 /// A measure in the course of a run.
 pub trait Series: Any + Debug + Send + Sync {
-    /// Measures a state. Gives the rows of its table, without step and time; most measures have one for each state.
+    /// Measures a state. Returns the rows of its table, without step and time; most measures have one for each state.
     ///
     /// # Errors
-    /// [`Error::Scene`] where the state lacks what it reads.
+    /// [`Error::Scene`] where the state lacks a column that it reads.
     fn take(&mut self, moment: &Moment<'_>) -> Result<Vec<Row>, Error>;
-    /// Takes in a row that it gave before the run was stopped: the cells behind the step, so the time is the first.
+    /// Reads back a row that it returned before the run was stopped: the cells after the step, so that the time is the first.
     fn recall(&mut self, step: u64, cells: &[&str]);
     /// A line for the end of a run.
     fn summary(&self) -> Option<String> {
         None
     }
-    /// What the last state has shown for the first time and must not be, if anything.
+    /// The first fault that the last state has shown, if there is a new one.
     fn warning(&mut self) -> Option<String> {
         None
     }
@@ -53,7 +53,7 @@ pub enum Cell {
     Whole(u64),
     /// A word without commas.
     Word(&'static str),
-    /// Nothing.
+    /// An empty cell.
     Empty,
 }
 

@@ -9,13 +9,13 @@ use crate::error::Error;
 
 /// The steps between two times of a motion are counted with a sign, in 32 bits.
 const MOST_STEPS: f64 = 2e9;
-/// By how much the first and the last pose of a motion that repeats may differ: degrees written with some digits.
+/// The tolerated difference of the first and the last pose of a motion that repeats, for degrees with a few digits.
 const SAME: f64 = 1e-6;
 
-/// Whether motions and fixed ones make sense, for `count` particles in so many dimensions and steps of `dt`.
+/// Checks motions and fixed particles, for `count` particles in `dimensions` dimensions and steps of `dt`.
 ///
 /// # Errors
-/// [`Error::Scene`] that names the first motion or particle at fault.
+/// [`Error::Scene`] that names the first invalid motion or particle.
 pub fn check(held: &[Held], motions: &[Motion], count: usize, dimensions: u32, dt: f64) -> Result<(), Error> {
     let mut names = BTreeSet::new();
     for motion in motions {

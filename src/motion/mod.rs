@@ -19,11 +19,11 @@ pub use table::{Tables, list, mask, tables};
 pub struct Held {
     /// Its id.
     pub id: u32,
-    /// How it moves.
+    /// The way in which it moves.
     pub by: Hold,
 }
 
-/// How a particle moves that forces do not move.
+/// The ways in which a particle can move independently of forces.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Hold {
     /// Fixed: it does not move, bit for bit.
@@ -34,7 +34,7 @@ pub enum Hold {
     Motion(u32),
 }
 
-/// The same ones in the order in which kernels take them: fixed, with a target, with a motion; each by id.
+/// These particles in the order of the kernels: fixed, with a target, with a motion; each by id.
 #[doc(hidden)]
 #[must_use]
 pub fn sorted(held: &[Held]) -> Vec<Held> {
@@ -43,12 +43,12 @@ pub fn sorted(held: &[Held]) -> Vec<Held> {
     held
 }
 
-/// A rigid motion by keyframes: x(t) = c + s(t) + R(t) (x₀ − c). Before the first key and after the last it rests.
-/// Between two keys the shift s goes straight and the turn R goes about one axis at one rate (Shoemake 1985), the shortest
-/// way; or, where two rotation vectors are parallel, as far as they say, which may be several turns.
+/// A rigid motion by keyframes: x(t) = c + s(t) + R(t) (x₀ − c). Before the first key and after the last it rests. Between two keys the
+/// shift s is linear, and the rotation R has one axis and a constant rate (Shoemake 1985), along the shortest path; or, where the two
+/// rotation vectors are parallel, through the angle between them, which may be several turns.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Motion {
-    /// What solids and scenes call it.
+    /// Its name in scenes and obstacles.
     pub name: String,
     /// c, the centre of rotation \[length\].
     pub about: DVec3,
@@ -60,7 +60,7 @@ pub struct Motion {
     pub repeat: bool,
 }
 
-/// Where a motion is at a time.
+/// The pose of a motion at a time.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Keyframe {
     /// The time \[time\].

@@ -1,10 +1,10 @@
-//! Where a motion is, in f64: the reference of `shaders/motion/pose.wgsl`.
+//! The pose of a motion, in f64: the reference of `shaders/motion/pose.wgsl`.
 
 use glam::{DQuat, DVec3};
 
 use super::{Keyframe, Motion};
 
-/// Where a rigid motion is at a time, and how fast it goes.
+/// The pose of a rigid motion at a time, and its rates.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Pose {
     /// s \[length\].
@@ -18,7 +18,7 @@ pub struct Pose {
 }
 
 impl Default for Pose {
-    /// At rest where everything is at home.
+    /// At rest without displacement.
     fn default() -> Self {
         Self { shift: DVec3::ZERO, turn: DQuat::IDENTITY, velocity: DVec3::ZERO, spin: DVec3::ZERO }
     }
@@ -27,7 +27,7 @@ impl Default for Pose {
 /// Two rotation vectors count as parallel below this sine of their angle.
 const PARALLEL: f64 = 1e-9;
 
-/// The rotation vector that leads from one key to the next.
+/// The rotation vector from one key to the next.
 pub(super) fn turn(from: &Keyframe, to: &Keyframe) -> DVec3 {
     let (a, b) = (from.turn, to.turn);
     if a.cross(b).length() <= PARALLEL * a.length() * b.length() {
@@ -39,7 +39,7 @@ pub(super) fn turn(from: &Keyframe, to: &Keyframe) -> DVec3 {
 }
 
 impl Motion {
-    /// Where it is at a time. Without keys it rests where everything is at home.
+    /// The pose at a time. Without keys it rests without displacement.
     #[must_use]
     pub fn pose(&self, time: f64) -> Pose {
         let (Some(first), Some(last)) = (self.keys.first(), self.keys.last()) else { return Pose::default() };
@@ -65,7 +65,7 @@ impl Motion {
             spin: rate / length * turn,
         }
     }
-    /// Where something is at a time that was somewhere at home.
+    /// The position of a point at a time, by its initial position.
     #[must_use]
     pub fn place(&self, home: DVec3, time: f64) -> DVec3 {
         let pose = self.pose(time);

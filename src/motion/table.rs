@@ -1,4 +1,4 @@
-//! Motions and fixed particles as kernels see them: tables of words.
+//! Motions and fixed particles as tables of words, for kernels.
 
 use std::sync::Arc;
 
@@ -6,15 +6,14 @@ use glam::{DQuat, DVec3};
 
 use super::{Held, Hold, Keyframe, Motion, pose};
 
-/// The tables of `shaders/motion/pose.wgsl`, of which the structs say what the words are. None is empty, because nothing
-/// empty can be bound.
+/// The tables of `shaders/motion/pose.wgsl`, whose structs define the words. They are never empty, because an empty buffer cannot be bound.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Tables {
     /// Words of the motions.
     pub motions: Arc<Vec<u32>>,
     /// Words of their keys.
     pub keys: Arc<Vec<u32>>,
-    /// How many of each there are.
+    /// The numbers of motions and of keys.
     pub sizes: [u64; 2],
 }
 
@@ -23,7 +22,7 @@ fn bits(x: f64) -> u32 {
     (x as f32).to_bits()
 }
 
-/// Whole steps, and the rest of one.
+/// Whole steps, and the remaining part of one.
 #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "motions are checked to fit")]
 fn split(steps: f64) -> (u32, f64) {
     (steps.floor() as u32, steps - steps.floor())
@@ -38,7 +37,7 @@ pub fn tables(motions: &[Motion], dt: f64) -> Tables {
     for motion in motions {
         let (Some(first), Some(last)) = (motion.keys.first(), motion.keys.last()) else { continue };
         let number = |n: usize| u32::try_from(n).unwrap_or(u32::MAX);
-        // A start before the run counts as steps below zero.
+        // A start before the run is a negative number of steps.
         let whole = (first.time / dt).floor();
         #[expect(
             clippy::cast_possible_truncation,
@@ -63,7 +62,7 @@ pub fn tables(motions: &[Motion], dt: f64) -> Tables {
 const KEY_WORDS: usize = 20;
 
 fn row(key: &Keyframe, next: Option<&Keyframe>, start: f64, dt: f64) -> [u32; KEY_WORDS] {
-    // Behind the last key nothing moves, however long that takes.
+    // After the last key nothing moves, for any length of time.
     let (length, way, turn) = next.map_or((1.0, DVec3::ZERO, DVec3::ZERO), |n| {
         ((n.time - key.time) / dt, n.shift - key.shift, pose::turn(key, n))
     });
@@ -81,7 +80,7 @@ fn row(key: &Keyframe, next: Option<&Keyframe>, start: f64, dt: f64) -> [u32; KE
     words
 }
 
-/// One word for each particle: 1 where it is fixed, else 0.
+/// One word for each particle: 1 if it is fixed, otherwise 0.
 #[must_use]
 pub fn mask(count: u32, held: &[Held]) -> Vec<u32> {
     let mut mask = vec![0; count as usize];
@@ -93,7 +92,7 @@ pub fn mask(count: u32, held: &[Held]) -> Vec<u32> {
     mask
 }
 
-/// Two words for each fixed particle: its id, and the number of its motion, 0 where it has none.
+/// Two words for each fixed particle: its id, and the number of its motion, 0 without a motion.
 #[must_use]
 pub fn list(held: &[Held]) -> Vec<u32> {
     let motion = |by| if let Hold::Motion(number) = by { number } else { 0 };

@@ -17,7 +17,7 @@ impl Grid {
         format!("grid RANGE={} CELLS={x}×{y}×{z}{}", self.name, self.fitted)
     }
 
-    /// The kernel that builds it from where particles are now. `moving`: with a sorted copy of their velocities.
+    /// The kernel that builds it from the current positions. `moving`: with a sorted copy of velocities.
     ///
     /// # Errors
     /// When a shader does not compile, or a field does not fit.
@@ -68,17 +68,17 @@ impl Grid {
         Ok(Pass { constants, uniforms, ..Pass::new(shader, problem.capacity) }.on(&fields))
     }
 
-    /// The file with `fn present() -> u32`, how many stand in its slots; a shader that joins it joins `neighbors/starts.wgsl` too,
-    /// and gives it [`Grid::constants`].
+    /// The file with `fn present() -> u32`, the number of particles in its slots; a shader that joins it also joins
+    /// `neighbors/starts.wgsl`, and gets [`Grid::constants`].
     #[must_use]
     pub fn present(&self, problem: &Problem) -> Source {
-        // Where only one species is in it, every particle looks around by id.
+        // If it contains only one species, every particle searches, by id.
         if problem.has_inactive && self.of.is_none() {
             return crate::shader!("neighbors/present_living.wgsl");
         }
         crate::shader!("neighbors/present.wgsl")
     }
-    /// The `override`s of a shader that the grid decides: its cells, of the active particles in it, and how many lists it keeps.
+    /// The values of a shader's `override`s that depend on the grid: its cells, those with active particles, and the number of lists.
     #[must_use]
     pub fn constants(&self, shader: &Shader) -> Vec<(&'static str, f64)> {
         let (cells, layers) = (self.bins() - 1, self.layers());
@@ -94,7 +94,7 @@ impl Grid {
     pub fn occupants(&self, host: &Host) -> Result<Vec<u32>, Error> {
         let ids = host.reading::<u32>(&self.field(SORTED_ID).1)?;
         let starts = self.field(STARTS).1;
-        // Where no kernel binds the cells, all particles are in them.
+        // Where no kernel binds the cells, they contain all particles.
         let all = ids.len();
         let end =
             if host.contains(&starts) { host.reading::<u32>(&starts)?.last().map_or(0, |n| *n as usize) } else { all };

@@ -1,4 +1,4 @@
-//! A grid that is filled on the host: what the reference of the device's is, and what measurements search.
+//! A grid that is filled on the host: the reference of the device's grid, also used by measurements.
 
 use glam::{DVec3, Vec3};
 use rayon::prelude::*;
@@ -7,7 +7,7 @@ use super::Grid;
 use crate::error::Error;
 use crate::kernel::{Bounds, Machine, Problem, Side};
 
-/// Particles that are asked for a mean.
+/// The number of particles in the sample for a mean.
 const SAMPLE: usize = 4096;
 
 /// Particles, sorted by cell.
@@ -16,7 +16,7 @@ pub struct Cells {
     bounds: Bounds,
     /// Every particle's image in the box.
     pub(super) wrapped_places: Vec<Vec3>,
-    /// Where each cell's particles begin in `ids`; one more than there are cells.
+    /// The start of each cell's particles in `ids`; one more than there are cells.
     pub(super) starts: Vec<u32>,
     /// Ids, cell by cell, ascending in each.
     pub(super) ids: Vec<u32>,
@@ -34,8 +34,8 @@ impl Cells {
         let grid = Grid::new(range, None, &Problem::new(count, machine).at(positions, bounds))?;
         Ok(Self::sort(&grid, bounds, positions.iter().copied(), |_| true, |_| false))
     }
-    /// Sorts particles chosen by their ids, with some behind all others. A cell is found by the device's own arithmetic, so that a particle at
-    /// its edge is on one side for both.
+    /// Sorts particles chosen by their ids, some of them after all others. A cell is computed by the device's own arithmetic, so that a
+    /// particle at its edge is on the same side for both.
     pub(super) fn sort(
         grid: &Grid,
         bounds: Bounds,
@@ -62,7 +62,7 @@ impl Cells {
         }
         Self { grid: grid.clone(), bounds, wrapped_places, starts, ids }
     }
-    /// How many others are in the cells around a particle, on average: what a search looks at.
+    /// The mean number of other particles in the cells around a particle: the candidates of a search.
     #[must_use]
     pub fn candidates(&self) -> f64 {
         let mut total = 0_u64;
@@ -71,7 +71,7 @@ impl Cells {
         }
         total as f64 / self.wrapped_places.len().max(1) as f64 - 1.0
     }
-    /// The most others that any particle has within the range.
+    /// The maximum number of other particles within the range of a particle.
     #[must_use]
     pub fn most(&self) -> u32 {
         let number = |i: usize| {
@@ -81,7 +81,7 @@ impl Cells {
         };
         (0..self.wrapped_places.len()).into_par_iter().map(number).max().unwrap_or(0)
     }
-    /// How many others a particle has within the range, on average of some thousands.
+    /// The mean number of other particles within the range, for a sample of some thousands.
     #[must_use]
     pub fn mean(&self) -> f64 {
         let every = self.wrapped_places.len().div_ceil(SAMPLE).max(1);
@@ -92,7 +92,7 @@ impl Cells {
         }
         found as f64 / asked.max(1) as f64
     }
-    /// Calls with the ids of all others within the range of a particle.
+    /// Calls a function with the ids of all other particles within the range of a particle.
     pub fn around(&self, i: usize, mut call: impl FnMut(usize)) {
         let wrapped = self.wrapped_places[i];
         self.rows(wrapped, |ids| {
@@ -104,12 +104,12 @@ impl Cells {
             }
         });
     }
-    /// Calls with the ids of each cell around a place.
+    /// Calls a function with the ids of each cell around a position.
     fn rows(&self, wrapped: Vec3, mut call: impl FnMut(&[u32])) {
         let [nx, ny, nz] = self.grid.cells.map(i64::from);
         let c = place(&self.grid, &self.bounds, wrapped);
         let [rx, ry, rz] = reach(&self.grid, wrapped);
-        // Where an axis has fewer cells than are looked at, each is looked at once.
+        // If an axis has fewer cells than a search covers, each is visited once.
         let span = |n: i64, reach: i64| if 2 * reach + 1 > n { 0..n } else { -reach..reach + 1 };
         for z in span(nz, rz) {
             for y in span(ny, ry) {
@@ -123,7 +123,7 @@ impl Cells {
     }
 }
 
-/// How many cells to look at on each side: more, where rounding moves places by more than a cell's slack; see
+/// The number of cells to search on each side: more, where rounding errors of positions exceed a cell's slack; see
 /// `shaders/visit/near_rows.wgsl`.
 fn reach(grid: &Grid, wrapped: Vec3) -> [i64; 3] {
     let away = ((wrapped - grid.low.as_vec3()) * grid.per_cell.as_vec3()).abs().to_array();
@@ -139,7 +139,7 @@ fn reach(grid: &Grid, wrapped: Vec3) -> [i64; 3] {
     [0, 1, 2].map(reach)
 }
 
-/// The cell of a wrapped place along each axis, before it is folded.
+/// The cell of a wrapped position along each axis, before folding.
 fn place(grid: &Grid, bounds: &Bounds, wrapped: Vec3) -> [i64; 3] {
     const FARTHEST: f32 = 536_870_912.0;
     let c: Vec3 = ((wrapped - grid.low.as_vec3()) * grid.per_cell.as_vec3()).floor();
@@ -152,7 +152,7 @@ fn place(grid: &Grid, bounds: &Bounds, wrapped: Vec3) -> [i64; 3] {
     })
 }
 
-/// The cell of a wrapped place, folded; see `shaders/neighbors/cell.wgsl`.
+/// The cell of a wrapped position, folded; see `shaders/neighbors/cell.wgsl`.
 fn key(grid: &Grid, bounds: &Bounds, wrapped: Vec3) -> usize {
     let [nx, ny, nz] = grid.cells.map(i64::from);
     let [x, y, z] = place(grid, bounds, wrapped);

@@ -6,33 +6,33 @@ use super::field;
 use crate::error::Error;
 use crate::kernel::{Binding, Name, Problem, Scalar, Side};
 
-/// A cell is wider than the range by this part, so that rounding moves no neighbour two cells away; see
-/// `shaders/visit/near_rows.wgsl`. Up to [`FINEST`] cells from the corner a place is wrong by 2 · 8192 · 2⁻²⁴ of a cell at
-/// most (two roundings), and two places differ by twice that: 2⁻⁹.
+/// A cell is wider than the range by this part, so that rounding moves no neighbour two cells away; see `shaders/visit/near_rows.wgsl`. Up
+/// to [`FINEST`] cells from the corner the error of a position is at most 2 · 8192 · 2⁻²⁴ of a cell (two roundings), and that of a
+/// difference twice that: 2⁻⁹.
 const SLACK: f64 = 1.0 / 512.0;
-/// Cells along one axis, at most.
+/// The maximum number of cells along one axis.
 const FINEST: f64 = 8192.0;
-/// Cells that a range may be along each axis, the best first: the finer, the fewer are looked at for nothing, and the
-/// more rows there are. Finer along y and z is for ranges that hold very many.
+/// The possible numbers of cells per range along each axis, the best first: with finer cells, fewer candidates are out of range, and there
+/// are more rows. Finer cells along y and z are for ranges with very many particles.
 const FINE: [[u32; 3]; 6] = [[32, 8, 8], [16, 4, 4], [8, 2, 2], [4, 1, 1], [2, 1, 1], [1, 1, 1]];
-/// So few of one species need no cells.
+/// Up to this number of particles of a species, no cells are needed.
 const FEW: u32 = 32;
-/// Particles of a cell from which on it is worth while to cut y and z too.
+/// The number of particles per cell from which it is worthwhile to divide y and z too.
 const DENSE: f64 = 4.0;
-/// Cells for each particle, about, at most: more are all but empty, and cost memory and time to clear.
+/// The approximate maximum number of cells per particle: more are almost empty, and cost memory and time to clear.
 const CELLS_PER_PARTICLE: f64 = 2.0;
-/// Cells, at most: 64 MiB, half of what every device binds.
+/// The maximum number of cells: 64 MiB, half of what every device binds.
 const MOST: f64 = 16_777_216.0;
-/// Cells between the origin and the corner of an axis without a period, at most. A place there has digits for its
-/// distance from the origin; further from the corner than this, fewer would be left of it than tell cells apart.
+/// The maximum number of cells between the origin and the corner of an axis without a period. A position uses digits for its distance from
+/// the origin; with a more distant corner, too few digits would be left to distinguish cells.
 const NEAREST_CORNER: f64 = 1_048_576.0;
 
 /// A uniform grid of cells no narrower than a range.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Grid {
-    /// What it is for: its range, and the species that it holds.
+    /// Its name: its range, and the species that it contains.
     pub name: String,
-    /// How far a search looks \[length\].
+    /// The range of a search \[length\].
     pub range: f64,
     /// The only species in it.
     pub of: Option<u32>,
@@ -42,13 +42,13 @@ pub struct Grid {
     pub per_cell: DVec3,
     /// Cells along each axis.
     pub cells: [u32; 3],
-    /// Cells that make up a range along each axis.
+    /// The number of cells per range along each axis.
     pub fine: [u32; 3],
-    /// Whether fixed particles stand behind all others: those that move are then side by side, and are searched for alone.
+    /// Whether fixed particles come after all others: mobile ones are then contiguous, and can be the only targets.
     pub apart: bool,
-    /// Particles of a cell at the start, when they are spread evenly.
+    /// The mean number of particles per cell at the start, for a uniform distribution.
     pub occupancy: f64,
-    /// How the cells that the range and the place of the particles ask for were brought down to what there is room for.
+    /// The way in which the number of cells was reduced to fit the limits.
     pub fitted: &'static str,
 }
 
@@ -66,7 +66,7 @@ impl Grid {
         Ok(Self::finest(&name, range, of, 1.0, problem))
     }
 
-    /// The same for all particles, with fixed ones behind all others.
+    /// The same for all particles, with fixed ones after all others.
     ///
     /// # Errors
     /// [`Error::Scene`] when the range is not a positive number.
@@ -78,7 +78,7 @@ impl Grid {
         Ok(Self { apart: true, ..Self::finest(&format!("{range:?} held last"), range, None, 2.0, problem) })
     }
 
-    /// As fine as there is room for, so many times over.
+    /// The finest cells within the limits, which allow `times` times as many.
     fn finest(name: &str, range: f64, of: Option<u32>, times: f64, problem: &Problem) -> Self {
         let width = range * (1.0 + SLACK);
         let make = |fine: [u32; 3]| Self::of_cells(name.to_owned(), range, of, (width, fine, times), problem);
@@ -86,7 +86,7 @@ impl Grid {
         grids.find(|grid| grid.fitted.is_empty()).unwrap_or_else(|| make([1; 3]))
     }
 
-    /// For searches of the nearest, which may be anywhere: cells that hold about `occupancy` particles each.
+    /// For searches of the nearest neighbours, at any distance: cells with about `occupancy` particles each.
     #[must_use]
     pub fn sparse(occupancy: f64, problem: &Problem) -> Self {
         let sides = size(problem).to_array().into_iter().filter(|side| *side > 0.0);
@@ -95,7 +95,7 @@ impl Grid {
             (volume, axes) = (volume * side, axes + 1);
         }
         let width = (volume * occupancy / f64::from(problem.particles)).powf(1.0 / f64::from(axes.max(1)));
-        // One over it is to be a number too.
+        // Its inverse must be finite too.
         let width = if width.is_finite() && width > 0.0 { width.clamp(1e-37, 1e37) } else { 1.0 };
         Self::of_cells(format!("cells of {occupancy:?}"), width, None, (width, [1; 3], 1.0), problem)
     }
@@ -111,17 +111,17 @@ impl Grid {
         let size = size(problem);
         let parts = DVec3::from_array(fine.map(f64::from));
         let whole_cells = size / width * parts;
-        // A period is cut into whole cells; elsewhere the last cell may stick out.
+        // A period is divided into whole cells; elsewhere the last cell may extend beyond the box.
         let wish = DVec3::select(periodic.cmpgt(DVec3::ZERO), whole_cells.floor(), whole_cells.ceil()).max(DVec3::ONE);
         let flat = problem.bounds.dimensions == 2;
         let room = (CELLS_PER_PARTICLE * f64::from(problem.count_of(of))).clamp(64.0, MOST / times);
-        // A few of one species are looked at all together.
+        // A few particles of one species are all candidates.
         let few = of.is_some() && problem.count_of(of) <= FEW;
         let wish = if few { DVec3::ONE } else { wish };
         let most = FINEST * parts;
         let mut cells = wish.min(most);
         while cells.element_product() > room {
-            // The longest axis first, and no more than is needed.
+            // The longest axis first, and no more than necessary.
             let longest = cells.max_position();
             let less = (cells[longest] * 0.9).min(cells[longest] * room / cells.element_product());
             cells[longest] = less.max(cells[longest] / 2.0).floor().max(1.0);
@@ -131,7 +131,7 @@ impl Grid {
             let coarser = (0..3).any(|axis| periodic[axis] > 0.0 && cells[axis] < wish[axis]);
             fitted = if coarser { " coarser" } else { " folded" };
         }
-        // Particles that start close together in open space may spread: there is to be room for that.
+        // Particles that start close together in open space may spread: cells are allocated for that.
         let open: Vec<usize> =
             (0..3).filter(|axis| problem.bounds.sides[*axis] == Side::Open && !(flat && *axis == 2)).collect();
         let spread = 0.5 * room / cells.element_product();
@@ -159,42 +159,42 @@ impl Grid {
         }
     }
 
-    /// Whether cells that are so much finer still hold several particles each, when these are spread evenly.
+    /// Whether finer cells would still contain several particles each, for a uniform distribution.
     fn is_dense(&self) -> bool {
         self.occupancy > DENSE
     }
-    /// How many cells there are.
+    /// The number of cells.
     #[must_use]
     pub fn count(&self) -> u32 {
         self.cells.iter().product()
     }
-    /// In how many lists particles are kept, one after the other.
+    /// The number of lists of particles, one after another.
     #[must_use]
     pub fn layers(&self) -> u32 {
         1 + u32::from(self.apart)
     }
-    /// The same, where searches find those ahead alone.
+    /// The same, for searches that find only particles that are not fixed.
     #[must_use]
     pub fn of_those_ahead(&self) -> Self {
         Self { apart: false, ..self.clone() }
     }
-    /// Where cells begin, of all lists, and where the last ends.
+    /// The number of starts of cells, of all lists, including the end of the last.
     #[must_use]
     pub fn bins(&self) -> u32 {
         self.count() * self.layers() + 1
     }
-    /// How many stand before all fixed particles, at most.
+    /// The maximum number of particles before the fixed ones.
     #[must_use]
     pub fn ahead(&self, problem: &Problem) -> u32 {
         let held = if self.apart { u32::try_from(problem.held.len()).unwrap_or(u32::MAX) } else { 0 };
         problem.capacity.saturating_sub(held)
     }
-    /// Whether a period has so few cells that those on both sides of me are the same.
+    /// Whether a period has so few cells that those on both sides of a particle coincide.
     #[must_use]
     pub fn narrow(&self, problem: &Problem) -> bool {
         (0..3).any(|axis| problem.bounds.sides[axis] == Side::Periodic && self.cells[axis] <= 2 * self.fine[axis])
     }
-    /// About how many particles a search looks at, when they are spread evenly.
+    /// The approximate number of candidates of a search, for a uniform distribution.
     #[must_use]
     pub fn candidates(&self, problem: &Problem) -> f64 {
         let around: u32 = self.cells.iter().zip(self.fine).map(|(n, fine)| (*n).min(2 * fine + 1)).product();
@@ -224,10 +224,10 @@ impl Grid {
     }
 }
 
-/// A range that can be searched: single precision must hold its square.
+/// Checks whether a range can be searched: its square must fit single precision.
 ///
 /// # Errors
-/// [`Error::Scene`] when it is another.
+/// [`Error::Scene`] when it does not.
 pub fn checked(range: f64) -> Result<(), Error> {
     if range > 0.0 && (f64::from(f32::MIN_POSITIVE)..=f64::from(f32::MAX)).contains(&(range * range)) {
         return Ok(());
@@ -238,7 +238,7 @@ pub fn checked(range: f64) -> Result<(), Error> {
     )))
 }
 
-/// Where the grid begins: a box says so, and elsewhere it is where the first particles are.
+/// The corner of the grid: that of the box, or that of the initial positions.
 fn low(problem: &Problem, width: f64) -> DVec3 {
     let corner = |axis: usize| match problem.bounds.sides[axis] {
         Side::Periodic => problem.bounds.low[axis],
@@ -250,7 +250,7 @@ fn low(problem: &Problem, width: f64) -> DVec3 {
     DVec3::new(corner(0), corner(1), corner(2))
 }
 
-/// How far particles are spread, or the box; 0 along an axis where that is NaN.
+/// The extent of the particles, or of the box; 0 along an axis where that is NaN.
 fn size(problem: &Problem) -> DVec3 {
     let open = problem.bounds.axes(Side::Open).cmpgt(DVec3::ZERO);
     let (low, high) = (problem.bounds.low, problem.bounds.high);

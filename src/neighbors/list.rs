@@ -9,33 +9,33 @@ use super::{Cells, Grid, checked};
 use crate::error::Error;
 use crate::kernel::{Bounds, Host, ListShape, POSITION, Problem, Side, World};
 
-/// Rows of neighbours, four to an element: see `shaders/neighbors/list_search.wgsl`.
+/// Rows of neighbours, four per element: see `shaders/neighbors/list_search.wgsl`.
 pub const LIST: &str = "list";
-/// Whether it must be built again, how often it has been, the most neighbours of a particle, and the complement of the id of
-/// one that had more than there is room for: see `shaders/neighbors/list_state.wgsl`.
+/// Whether it must be rebuilt, the number of builds, the largest number of neighbours of a particle, and the complement of the lowest row
+/// with more than there is room for: see `shaders/neighbors/list_state.wgsl`.
 pub const LIST_STATE: &str = "list_state";
 /// The words of that.
 pub const LIST_STATE_WORDS: usize = 4;
-/// Where particles were when it was built.
+/// The positions when it was built.
 pub const LIST_ORIGIN: &str = "list_origin";
 /// History of pairs, word by word: see `shaders/neighbors/history.wgsl`.
 pub const HISTORY: &str = "history";
 /// No particle.
 pub(crate) const NONE: u32 = u32::MAX;
 
-/// A cell is wider than the reach by this part: then the search for neighbours misses none that the reach, measured
-/// between positions as they are, has within.
+/// A cell is wider than the reach by this part: then the search for neighbours misses none within the reach, measured between positions as
+/// stored.
 const WIDER: f64 = 1.0 / 256.0;
-/// Of the largest coordinate in a periodic box, what its rounding may add to a distance: sixteen units in the last place.
+/// The part of the largest coordinate in a periodic box that its rounding may add to a distance: sixteen units in the last place.
 const ROUNDING: f64 = 1.0 / 1_048_576.0;
-/// Of a range, what rounding may add to it: its square is a sum of three, each rounded thrice.
+/// The part of a range that rounding may add to it: its square is a sum of three, each rounded three times.
 const SQUARE: f64 = 1.0 / 65_536.0;
 
 /// A list of neighbours in a problem.
 pub struct List {
-    /// How far it reaches, and how many neighbours it has room for.
+    /// Its reach, and its capacity.
     pub shape: ListShape,
-    /// What it is built with.
+    /// The grid with which it is built.
     pub grid: Grid,
 }
 
@@ -43,7 +43,7 @@ impl List {
     /// The list of such a shape.
     ///
     /// # Errors
-    /// [`Error::Scene`] when the range or the skin is none.
+    /// [`Error::Scene`] when the range or the skin is invalid.
     pub fn new(shape: ListShape, problem: &Problem) -> Result<Self, Error> {
         checked(shape.range)?;
         if !(shape.skin >= 0.0 && shape.skin.is_finite()) {
@@ -61,37 +61,37 @@ impl List {
     #[must_use]
     pub fn title(&self) -> String {
         let ListShape { range, skin, words, capacity } = self.shape;
-        // As the device holds it: a difference of two has more digits than were written.
+        // In single precision as on the device: the difference of two numbers has more digits than were given.
         #[expect(clippy::cast_possible_truncation, reason = "rounded to be read")]
         let skin = skin as f32;
         let words = if words > 0 { format!(" WORDS={words}") } else { String::new() };
         format!("list RANGE={range:?} SKIN={skin:?} CAPACITY={capacity}{words}")
     }
-    /// How far a particle may move before the list must be built again \[length\].
+    /// The distance that a particle may move before the list must be rebuilt \[length\].
     #[must_use]
     pub fn limit(&self) -> f64 {
         (0.5 * self.shape.skin - SQUARE * self.shape.reach()).max(0.0)
     }
-    /// Elements of four words for so many particles: a head for each, and its neighbours.
+    /// Elements of four words for `count` particles: a head for each, and its neighbours.
     #[must_use]
     pub fn elements(&self, count: u32) -> u64 {
         u64::from(count) * (1 + u64::from(self.shape.capacity) / 4)
     }
-    /// The place of the n-th neighbour in row k, in words.
+    /// The index of the n-th neighbour in row k, in words.
     pub(crate) fn place(row: usize, n: usize, count: usize) -> usize {
         4 * ((1 + n / 4) * count + row) + n % 4
     }
 
-    /// The place of a word of history: of the n-th neighbour in row k, in one of two halves.
+    /// The index of a word of history: of the n-th neighbour in row k, in one of two halves.
     pub(crate) fn word([row, n, half, word]: [usize; 4], slots: usize, count: usize) -> usize {
         ((2 * n + half) * slots + word) * count + row
     }
-    /// Words of history for so many particles.
+    /// Words of history for `count` particles.
     #[must_use]
     pub fn words(&self, count: u32) -> u64 {
         2 * u64::from(count) * u64::from(self.shape.capacity) * u64::from(self.shape.words)
     }
-    /// What pairs remember, by both rows, as this step finds it; a row that has got another particle has none.
+    /// The history of pairs, by both rows, at the start of this step; a row that was reassigned to another particle has none.
     fn remembered(
         &self,
         list: &[u32],
@@ -114,7 +114,7 @@ impl List {
         pairs
     }
 
-    /// The reference: looks whether a particle has moved, and if so, finds the neighbours of each by brute force.
+    /// The reference: checks whether a particle has moved too far, and if so, finds the neighbours of each by brute force.
     ///
     /// # Errors
     /// When a field is missing.
@@ -147,7 +147,7 @@ impl List {
         let mut list = host.writing::<u32>(LIST)?;
         let slots = self.shape.words as usize;
         let mut history = (slots > 0).then(|| host.writing::<f32>(HISTORY)).transpose()?;
-        // The first list has none before it.
+        // There is no list before the first.
         let before = history.as_ref().filter(|_| *builds > 1);
         let stayed = |row: u32| origin.get(row as usize).is_some_and(|from| from.w > 0.0);
         let known = before.map(|history| self.remembered(&list, history, &host.world(), stayed)).unwrap_or_default();
@@ -155,7 +155,7 @@ impl List {
         let half = (host.world().step & 1) as usize;
         for k in 0..count {
             let (id, row) = order.get(k).zip(rows.get(k)).map_or((NONE, &[][..]), |(id, row)| (*id, row));
-            // A row without room for all is empty: the run ends with an error that names its particle.
+            // A row without enough room is empty: the run ends with an error that names its particle.
             let kept = if row.len() > self.shape.capacity as usize { 0 } else { row.len() };
             let number = |n: usize| u32::try_from(n).unwrap_or(u32::MAX);
             list[4 * k..4 * k + 4].copy_from_slice(&[number(kept), id, 0, 0]);
@@ -175,7 +175,7 @@ impl List {
         }
         Ok(true)
     }
-    /// Whether a displacement is more than the list allows, by the device's own arithmetic.
+    /// Whether a displacement exceeds the limit of the list, by the device's own arithmetic.
     #[expect(clippy::cast_possible_truncation, reason = "as the device holds it")]
     fn has_moved(&self, x: DVec3, from: DVec3, bounds: &Bounds) -> bool {
         let mut limit = self.limit() as f32;

@@ -1,4 +1,4 @@
-//! Neighbours: a cell list, built on the device at each evaluation. It knows nothing of laws.
+//! Neighbours: a cell list, built on the device at each evaluation, independent of laws.
 
 mod build;
 mod cells;
@@ -17,7 +17,7 @@ fn field(of: &str, grid: &str) -> Name {
     format!("{of} of {grid}").into()
 }
 
-/// Where each cell's particles begin in the sorted fields; one more than there are cells, for where the last ones end.
+/// The start of each cell's particles in the sorted fields; one more than there are cells, for the end of the last.
 pub(crate) const STARTS: &str = "starts";
 /// Ids, cell by cell, ascending in each cell.
 pub(crate) const SORTED_ID: &str = "sorted_id";
@@ -26,7 +26,7 @@ pub(crate) const SORTED_POSITION: &str = "sorted_position";
 /// Velocities and radii in that order, where a law reads them.
 pub(crate) const SORTED_VELOCITY: &str = "sorted_velocity";
 
-/// What is not needed any more when a grid is built: all grids share it.
+/// Temporary fields of the construction: all grids share them.
 const KEYS: Field<u32> = Field::new("keys");
 const ARRIVALS: Field<u32> = Field::new("arrivals");
 const SLOTS: Field<u32> = Field::new("slots");

@@ -6,21 +6,21 @@ use super::{bounded, fill, pass, scan};
 use crate::error::Error;
 use crate::kernel::{Host, Kernel, Machine, Name, Pass};
 
-/// Elements in one bin, at most, whose order is made to ascend: a quarter of a billion looks, which a small GPU does in 0.1 s.
+/// The maximum number of elements in one bin whose order is made ascending: a quarter of a billion comparisons, which a small GPU does in 0.1 s.
 pub const LARGEST: u32 = 1 << 14;
 
 /// The fields of a counting sort.
 #[derive(Debug, Clone)]
 pub struct Fields {
-    /// What is sorted by, `elements` of `u32`.
+    /// The keys, `elements` of `u32`.
     pub keys: Name,
-    /// Where each bin begins in `order`, `bins` + 1 of them: the last one begins where the keys of `bins` and more stand,
-    /// which must not be dropped unseen. It ends with the elements.
+    /// The start of each bin in `order`, `bins` + 1 of them: the last one is the start of the keys of `bins` and more, which must not be
+    /// dropped silently. It ends with the elements.
     pub starts: Name,
     /// The ids of the elements, bin by bin, ascending in each.
     pub order: Name,
-    /// How many elements the fullest bin holds, 1 of `u32`. Beyond [`LARGEST`] the order inside such bins is that of a
-    /// race: code that relies on the order must look here.
+    /// The number of elements in the fullest bin, 1 of `u32`. Beyond [`LARGEST`] the order inside such bins is undefined: code that relies
+    /// on the order must check this.
     pub largest: Name,
 }
 

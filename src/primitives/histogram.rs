@@ -1,4 +1,4 @@
-//! How many keys fall into each bin.
+//! The number of keys in each bin.
 
 use std::sync::Arc;
 

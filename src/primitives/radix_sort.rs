@@ -1,4 +1,4 @@
-//! Sorting by keys that are many: from the lowest digit to the highest, eight bits at a time, each move stable.
+//! Sorting by keys with a large range: from the lowest digit to the highest, eight bits at a time, each move stable.
 //!
 //! A move counts the digits of each block, scans the table of counts digit by digit, and takes each key to its place
 //! (reduce-then-scan: no workgroup waits for another). Eight bits at a time move the pairs half as often as four, at the
@@ -21,7 +21,7 @@ const CHUNKS: u32 = 1 << 13;
 /// Keys of such a chunk, at least.
 const CHUNK: u32 = 2048;
 
-/// How the keys are cut: keys of one block, and blocks.
+/// The division of the keys: keys per block, and blocks.
 fn cut(elements: u32, machine: &Machine) -> (u32, u32) {
     let block = if machine.software {
         elements.div_ceil(CHUNKS).max(CHUNK)
@@ -32,8 +32,8 @@ fn cut(elements: u32, machine: &Machine) -> (u32, u32) {
     (block, elements.div_ceil(block).max(1))
 }
 
-/// Sorts pairs in place by the lowest `bits` bits of their keys; what has the same bits stays in order. `keys` and
-/// `values` have `elements` of `u32` each.
+/// Sorts pairs in place by the lowest `bits` bits of their keys; pairs with the same bits stay in order. `keys` and `values` have
+/// `elements` of `u32` each.
 ///
 /// # Errors
 /// [`Error::Limit`] when there are more than [`MOST`](super::MOST) elements, or more bits than 32.

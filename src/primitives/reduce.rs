@@ -8,7 +8,7 @@ use super::{bounded, pass, workgroups};
 use crate::error::Error;
 use crate::kernel::{Host, Kernel, Machine, Name, Reference, Source};
 
-/// What becomes of two elements.
+/// The operation on two elements.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Operation {
     /// Their sum; of integers it wraps at 2³².
@@ -19,15 +19,15 @@ pub enum Operation {
     Max,
 }
 
-/// Which elements hold something.
+/// The elements to reduce.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Which {
     All,
-    /// Those of rows that are in use.
+    /// Those of rows in use.
     Rows,
 }
 
-/// What the elements are.
+/// The type of the elements.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Items {
     /// `vec4f`
@@ -51,7 +51,7 @@ impl Operation {
             Self::Max => crate::shader!("primitives/reduce_max.wgsl"),
         }
     }
-    /// What changes nothing.
+    /// The neutral element.
     fn neutral(self, items: Items) -> u32 {
         match (self, items) {
             (Self::Sum, _) | (Self::Max, Items::Uint) => 0,

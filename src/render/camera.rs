@@ -1,4 +1,4 @@
-//! Where a picture is taken from.
+//! The view of a picture.
 
 use glam::DVec3;
 
@@ -7,16 +7,16 @@ use crate::kernel::{Bounds, Side};
 use crate::settings::{Settings, Value};
 use crate::state::State;
 
-/// An eye, what it looks at, and how much of it is in the picture.
+/// An eye, its target, and the extent of the picture.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Camera {
-    /// What is in the middle of the picture.
+    /// The point in the middle of the picture.
     pub center: DVec3,
     /// From the centre towards the eye; of length 1, as are `right` and `up`.
     pub back: DVec3,
-    /// What is to the right in the picture.
+    /// The direction to the right in the picture.
     pub right: DVec3,
-    /// What is up in the picture.
+    /// The upward direction in the picture.
     pub up: DVec3,
     /// Half the height of the picture, at the centre \[length\].
     pub extent: f64,
@@ -30,9 +30,9 @@ const HALF_VIEW: f64 = 0.268;
 pub const FEW: usize = 64;
 /// The part of many particles that may lie beyond each edge before the margin is added.
 const OUTER: f64 = 0.03;
-/// What is left free around the particles, as a part of their own extent.
+/// The margin around the particles, as a part of their extent.
 const MARGIN: f64 = 0.22;
-/// A picture is framed by so many particles at most.
+/// The maximum number of particles used for framing.
 const SAMPLE: usize = 20_000;
 
 impl Camera {
@@ -54,7 +54,7 @@ impl Camera {
         camera
     }
 
-    /// The same view of so many times as much.
+    /// The same view of an extent larger by a factor.
     #[must_use]
     pub fn wider(self, factor: f64) -> Self {
         Self { extent: self.extent * factor, distance: self.distance * factor, ..self }
@@ -84,7 +84,7 @@ impl Camera {
         let (near, far) = span(shapes.iter().map(|s| (depth(s), depth(s))), outer);
         let mut middle = DVec3::new(0.0, 0.0, 0.5 * (near + far));
         let mut extent = 0.0;
-        // What is nearer looks larger: with the frame, the picture of the particles changes, and a few rounds settle it.
+        // Nearer objects look larger: the frame changes the picture of the particles, and a few iterations converge.
         for _ in 0..6 {
             let back = self.back;
             let distance = if perspective && extent > 0.0 { extent / HALF_VIEW } else { f64::INFINITY };
@@ -103,13 +103,13 @@ impl Camera {
             extent = (0.5 * (high - low)).max(0.5 * (right - left) / aspect) * (1.0 + MARGIN);
         }
         self.center = middle.x * self.right + middle.y * self.up + middle.z * self.back;
-        // One place has no extent, and f32 none that is smaller than this.
+        // A single point has no extent, and f32 resolves none smaller than this.
         let least = 1e-5 * self.center.length();
         self.reach(if extent > least { extent } else { least.max(1.0) }, perspective);
     }
 }
 
-/// The same settings with all of a box in view, where it is closed all round and the frame is not given.
+/// The same settings with a closed box in view, if the frame is not given.
 #[must_use]
 pub fn framed(settings: &Settings, bounds: &Bounds) -> Settings {
     let straight = bounds.dimensions == 2 && super::styles::of(settings).style.is_fluid();
@@ -131,7 +131,7 @@ pub fn framed(settings: &Settings, bounds: &Bounds) -> Settings {
     settings.clone().with("auto_frame", Value::Flag(false)).with("center", center).with("extent", extent)
 }
 
-/// A fluid in a plane is seen straight from above, where the scene does not say from where.
+/// A fluid in a plane is seen straight from above, unless the scene gives a direction.
 fn facing(settings: &Settings) -> Settings {
     let usual = KEYS.iter().find(|key| key.name == "eye").and_then(|key| key.default.clone());
     if usual != Some(Value::Vector(settings.vector("eye"))) {
@@ -174,7 +174,7 @@ mod tests {
         assert!(low > 0.02 && high < 1.0, "{low} {high}");
         assert_eq!(span(line(50.0), 0.0), (0.0, 50.0));
     }
-    /// How much of the picture these particles and trails fill, from the middle to the fuller edge.
+    /// The part of the picture that these particles and trails fill, from the middle to the fuller edge.
     fn filled(shapes: &[(DVec3, f64)], past: &[DVec3], projection: &'static str) -> f64 {
         let mut particles = State::default();
         for (x, radius) in shapes {

@@ -28,7 +28,7 @@ pub async fn draw<B: Backend>(backend: &mut B, picture: &Picture) -> Result<Imag
     exposed(backend, picture, |metered| metered).await
 }
 
-/// The same with an exposure of the caller's choice; what was metered is a proposal.
+/// The same with an exposure given by the caller; the measured one is a proposal.
 pub(super) async fn exposed<B: Backend>(
     backend: &mut B,
     picture: &Picture,

@@ -1,4 +1,4 @@
-//! How bright a canvas is, and what to make of it.
+//! The exposure of a picture.
 
 use super::frame::{BINS, Frame};
 
@@ -15,12 +15,12 @@ fn brightness(bin: usize) -> f64 {
     f64::from(octave).exp2() * (1.0 + (f64::from(eighth) + 0.5) / 8.0)
 }
 
-/// How light becomes brightness, in canvas units.
+/// The tone mapping, in canvas units.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Exposure {
-    /// Where the scale turns from linear to logarithmic.
+    /// The value at which the scale turns from linear to logarithmic.
     pub knee: f64,
-    /// What becomes white.
+    /// The value of white.
     pub white: f64,
 }
 

@@ -10,18 +10,18 @@ use crate::kernel::Backend;
 pub struct Film {
     picture: Picture,
     exposure: Option<Exposure>,
-    /// What each picture does of the way to the exposure that would be its own.
+    /// The part by which each picture approaches its own exposure.
     follow: f64,
 }
 
-/// How much more than the first state a film shows each way, where the camera has framed that by itself: room to move.
+/// The margin of a film beyond the first state in each direction, where the camera is framed automatically.
 const ROOM: f64 = 1.25;
 /// Half of the way to an exposure that would be a picture's own is gone in such a part of the film. The meter counts in eighths
 /// of an f-stop: of 240 pictures, none of its jumps makes one brighter than the last by more than 1 %.
 const HALF_WAY: f64 = 1.0 / 30.0;
 
 impl Film {
-    /// A film of so many pictures that begins with this one. With `room` its camera sees a quarter more, each way.
+    /// A film of `frames` pictures that begins with this one. With `room` its camera shows a quarter more, in each direction.
     #[must_use]
     pub fn new(mut picture: Picture, frames: u64, room: bool) -> Self {
         if room {
@@ -30,7 +30,7 @@ impl Film {
         let follow = 1.0 - (-1.0 / (HALF_WAY * frames.max(1) as f64)).exp2();
         Self { picture, exposure: None, follow }
     }
-    /// What every picture of it looks like.
+    /// The settings of its pictures.
     #[must_use]
     pub fn picture(&self) -> &Picture {
         &self.picture
@@ -39,11 +39,11 @@ impl Film {
     pub fn retrace(&mut self, trail: Trail) {
         self.picture.retrace(trail);
     }
-    /// Where solids are in the next picture.
+    /// Sets the solids of the next picture.
     pub fn place(&mut self, solids: Vec<Solid>) {
         self.picture.place(solids);
     }
-    /// Where tanks are in the next picture.
+    /// Sets the tanks of the next picture.
     pub fn contain(&mut self, tanks: Vec<Solid>) {
         self.picture.contain(tanks);
     }
@@ -52,7 +52,7 @@ impl Film {
     pub fn exposure(&self) -> Option<Exposure> {
         self.exposure
     }
-    /// Goes on behind a picture of this exposure.
+    /// Continues after a picture with this exposure.
     pub fn go_on(&mut self, exposure: Exposure) {
         self.exposure = Some(exposure);
     }

@@ -1,8 +1,7 @@
-//! Pictures, drawn by kernels on a device; without a driver a plain renderer draws the same in f64, to within what an eye sees.
+//! Pictures, drawn by kernels on a device; without a driver a plain renderer draws the same in f64, up to invisible differences.
 //!
-//! Few or large particles are shaded balls with trails; many small ones are lights that add up on a canvas of whole
-//! numbers, so that a picture has the same bytes on every run. Cloth is a surface, springs are lines, and solids stand
-//! among them, in the light of one lamp.
+//! Few or large particles are shaded balls with trails; many small ones are lights that are added on an integer canvas, so that a picture
+//! has the same bytes on every run. Cloth is drawn as a surface, springs as lines, and solids among them, in the light of one lamp.
 
 mod camera;
 mod draw;

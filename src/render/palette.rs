@@ -21,7 +21,7 @@ const PALETTE: [[u8; 3]; 10] = [
     [184, 204, 84],
 ];
 
-/// What decides a particle's colour.
+/// The quantity that determines a particle's colour.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Color {
     /// A colour for each particle, as [`pack`]ed bytes.
@@ -33,7 +33,7 @@ pub enum Color {
         /// The bright end.
         fast: f64,
     },
-    /// Where it is heading: the hue by the angle in the plane of x and y, the lightness by the climb along z.
+    /// The heading: the hue by the angle in the plane of x and y, the lightness by the climb along z.
     Heading,
 }
 
@@ -72,7 +72,7 @@ pub(super) fn along(scale: &[DVec3], part: f64) -> DVec3 {
 }
 
 impl Color {
-    /// As the scene's `color` says. `groups` has a number for each particle, or is empty when all are one group.
+    /// By the scene's `color`. `groups` has a number for each particle, or is empty when all are one group.
     #[must_use]
     pub fn choose(settings: &Settings, particles: &State, groups: &[u32]) -> Self {
         let several = groups.iter().any(|g| Some(g) != groups.first());

@@ -17,14 +17,14 @@ use crate::kernel::Plan;
 use crate::settings::{Settings, Value};
 use crate::state::State;
 
-/// A picture of so many particles, from one place. It can be drawn again and again as they move.
+/// A picture of `count` particles, from one camera. It can be drawn repeatedly as they move.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Picture {
-    /// Camera, size and looks.
+    /// Camera, size and style.
     pub frame: Frame,
-    /// What decides the colours.
+    /// The quantity that determines the colours.
     pub color: Color,
-    /// Where particles have been.
+    /// The trails of particles.
     pub trail: Trail,
     /// Brightness of lights, as a multiple of the automatic one.
     pub exposure: f64,
@@ -47,15 +47,15 @@ const FINE: u32 = 3;
 const SAMPLES: u32 = 1 << 25;
 
 impl Picture {
-    /// The picture that a scene's `[picture]` asks for, framed for these particles. `groups` has a number for each of
-    /// them, or is empty when all are one group.
+    /// The picture of a scene's `[picture]`, framed for these particles. `groups` has a number for each of them, or is empty when all are
+    /// one group.
     ///
     /// # Errors
     /// [`Error::Scene`] when there are no particles or too many, or the picture is too large.
     pub fn new(settings: &Settings, particles: &State, groups: &[u32], trail: Trail) -> Result<Self, Error> {
         Self::with(settings, particles, groups, trail, &Scenery::default())
     }
-    /// The same with links between the particles, and with solids. What of it is drawn the key `draw` says.
+    /// The same with links between the particles, and with solids. The key `draw` selects what is drawn of them.
     ///
     /// # Errors
     /// As for [`Picture::new`]; when a link has an id that no particle has, or there are too many solids.
@@ -81,7 +81,7 @@ impl Picture {
         let wet = style.is_fluid();
         let walls: &[u32] = if wet { &scenery.held } else { &[] };
         let facets = Facets::new(scenery, count, settings.text("draw"), walls)?;
-        // What is tied together is one thing, of one colour.
+        // Linked particles are one object, of one colour.
         let plain = facets.count > 0 && settings.text("color") == "auto";
         let color = if plain {
             Color::choose(&settings.clone().with("color", Value::Text("group".into())), particles, groups)
@@ -155,12 +155,12 @@ impl Picture {
         self.frame.points = if self.style().has_trails() { points(&trail) } else { 0 };
         self.trail = trail;
     }
-    /// The same picture with solids elsewhere.
+    /// Replaces the solids.
     pub fn place(&mut self, solids: Vec<Solid>) {
         self.facets.set(solids);
         self.frame.solids = self.facets.solids();
     }
-    /// The same picture with tanks elsewhere.
+    /// Replaces the tanks.
     pub fn contain(&mut self, tanks: Vec<Solid>) {
         self.facets.contain(tanks);
         self.frame.water.edges = if self.frame.water.is_there() { self.facets.edges() } else { 0 };

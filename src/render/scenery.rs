@@ -16,7 +16,7 @@ use crate::motion::{Hold, Motion};
 use crate::solids::Standing;
 use crate::state::State;
 
-/// What a picture shows beside particles.
+/// The objects of a picture in addition to particles.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Scenery {
     /// Links between the particles, by their ids.
@@ -31,7 +31,7 @@ pub struct Scenery {
     pub drop: f64,
     /// The fixed particles, by id: in a fluid those are walls.
     pub held: Arc<Vec<u32>>,
-    /// The same in a scene, and the motions that they go along with: see [`Scenery::at`].
+    /// The obstacles of a scene, and the motions that they follow: see [`Scenery::at`].
     pub standing: (Vec<Standing>, Vec<Motion>),
 }
 
@@ -51,7 +51,7 @@ impl Scenery {
             ..Self::default()
         }
     }
-    /// The same in a box, where that is closed all round.
+    /// The same with a box, if it is closed along every axis.
     #[must_use]
     pub fn within(mut self, bounds: &Bounds) -> Self {
         let axes = usize::try_from(bounds.dimensions).unwrap_or(3).min(3);
@@ -63,12 +63,12 @@ impl Scenery {
         }
         self
     }
-    /// The same with what stands in a scene, on the motions of these particles, as at the time 0.
+    /// The same with the obstacles of a scene, on the motions of these particles, as at the time 0.
     #[must_use]
     pub fn beside(self, standing: Vec<Standing>, particles: &State) -> Self {
         Self { standing: (standing, particles.motions.clone()), ..self }.at(0.0)
     }
-    /// The same with its solids where they are at a time.
+    /// The same with its solids at their positions at a time.
     #[must_use]
     pub fn at(&self, time: f64) -> Self {
         let (standing, motions) = &self.standing;
@@ -89,7 +89,7 @@ impl Scenery {
 
 /// The field of springs that a simulation holds, and breaks.
 pub const LINK: &str = "link";
-/// Solids in one picture: every sample of it looks at all of them, twice.
+/// The maximum number of solids in one picture: every sample tests all of them, twice.
 const MOST_SOLIDS: usize = 1024;
 
 /// Facets, triangles first and lines behind them, as tables for the device.
@@ -169,7 +169,7 @@ impl Facets {
             link: network.link,
         })
     }
-    /// How many edges tanks have.
+    /// The number of edges of tanks.
     pub fn edges(&self) -> u32 {
         self.tanks.iter().map(tank::number).sum()
     }
@@ -181,12 +181,12 @@ impl Facets {
     pub fn corners(&self, facet: usize) -> [u32; 3] {
         [0, 1, 2].map(|k| self.facet[3 * facet + k])
     }
-    /// The facets around each of so many particles.
+    /// The facets of each of `count` particles.
     pub fn around(&self, count: usize) -> impl Iterator<Item = (usize, &[u32])> {
         let row = |id: usize| Some(*self.around_start.get(id)? as usize..*self.around_start.get(id + 1)? as usize);
         (0..count).filter_map(move |id| Some((id, self.around.get(row(id)?)?)))
     }
-    /// Whether a side of a facet is a broken spring; without the table of links as it is now, as it was at the start.
+    /// Whether a side of a facet is a broken spring; without the present table of links, as at the start.
     pub fn is_broken(&self, facet: usize, link: Option<&[u32]>) -> bool {
         let link = link.unwrap_or(&self.link);
         let words = |slot: &u32| link.get(*slot as usize * WORDS..).and_then(|rest| rest.get(..WORDS));
@@ -205,11 +205,11 @@ impl Facets {
     pub fn is_empty(&self) -> bool {
         self.count == 0 && self.solids.is_empty()
     }
-    /// How many solids.
+    /// The number of solids.
     pub fn solids(&self) -> u32 {
         u32::try_from(self.solids.len()).unwrap_or(0)
     }
-    /// Other tanks, or the same at other places.
+    /// Replaces the tanks.
     pub fn contain(&mut self, tanks: Vec<Solid>) {
         self.tanks = tanks;
     }
@@ -217,7 +217,7 @@ impl Facets {
     pub fn hides(&self) -> bool {
         self.hidden.contains(&1)
     }
-    /// Other solids, or the same at other places.
+    /// Replaces the solids.
     pub fn set(&mut self, solids: Vec<Solid>) {
         self.solids = solids;
     }

@@ -7,12 +7,12 @@ use super::frame::Frame;
 use crate::motion::Motion;
 use crate::solids::{self, Standing};
 
-/// A solid that stands in a picture. It is drawn, and nothing else.
+/// A solid in a picture, for drawing only.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Solid {
-    /// What it is.
+    /// Its shape.
     pub shape: Shape,
-    /// Its middle; of a plane any place on it \[length\].
+    /// Its centre; of a plane any point on it \[length\].
     pub place: DVec3,
     /// From its own axes to the scene's.
     pub turn: DQuat,
@@ -49,7 +49,7 @@ const BOX: u32 = 1;
 const PLANE: u32 = 2;
 
 impl Solid {
-    /// What stands in a scene, as it is at a time.
+    /// A solid of a scene, at its position at a time.
     #[must_use]
     pub fn at(standing: &Standing, motions: &[Motion], time: f64) -> Self {
         let (shape, own) = match standing.solid {
@@ -66,7 +66,7 @@ impl Solid {
         let turn = motion.map_or(own, |motion| motion.pose(time).turn * own);
         Self { shape, place, turn }
     }
-    /// How far it reaches from its middle \[length\]; nothing is said of planes.
+    /// Its radius about its centre \[length\]; `None` for planes.
     #[must_use]
     pub fn reach(&self) -> Option<f64> {
         match self.shape {
@@ -81,7 +81,7 @@ impl Solid {
         let axes = DQuat::from_mat3(&DMat3::from_cols(camera.right, camera.up, camera.back)).inverse();
         Self { place: axes * (self.place - camera.center), turn: axes * self.turn, ..*self }
     }
-    /// What the device holds of it, in the axes of a picture.
+    /// Its words for the device, in the axes of a picture.
     pub(super) fn words(&self, frame: &Frame) -> [u32; WORDS] {
         let camera = &frame.camera;
         let Self { place, turn, .. } = self.seen_by(camera);

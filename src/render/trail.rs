@@ -1,11 +1,11 @@
-//! Where a few particles have been.
+//! The past positions of a few particles.
 
 use glam::{DVec3, DVec4};
 
 use super::camera::FEW;
 
-/// Past positions of up to 64 particles; of more, nothing is kept. Push as often as you like: when it is full, every
-/// second moment is dropped, and from then on every second push.
+/// Past positions of up to 64 particles; with more, nothing is stored. It can be pushed at any rate: when it is full, every second moment
+/// is dropped, and from then on every second push.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Trail {
     count: usize,
@@ -50,12 +50,12 @@ impl Trail {
     pub fn moments(&self) -> usize {
         self.points.len() / self.count.max(1)
     }
-    /// How often it was pushed.
+    /// The number of pushes.
     #[must_use]
     pub fn pushes(&self) -> u64 {
         self.pushes
     }
-    /// What there was of it after so many pushes.
+    /// The trail as it was after `pushes` pushes.
     #[must_use]
     pub fn until(&self, pushes: u64) -> Self {
         let moments = usize::try_from(pushes.div_ceil(self.stride.max(1))).unwrap_or(usize::MAX).min(self.moments());
@@ -69,7 +69,7 @@ impl Trail {
         let points = self.points.iter().flat_map(DVec3::to_array);
         [self.stride as f64, self.pushes as f64].into_iter().chain(points).collect()
     }
-    /// The trail of so many particles that has these numbers, if they make one.
+    /// The trail of `count` particles with these numbers, if they are valid.
     #[must_use]
     pub fn of(count: usize, numbers: &[f64]) -> Option<Self> {
         let (head, points) = numbers.split_at_checked(2)?;

@@ -1,4 +1,4 @@
-//! A free body turns.
+//! The rotation of a free body.
 
 use std::sync::Arc;
 
@@ -8,14 +8,14 @@ use super::{Body, facing, kernel, lightness, moving};
 use crate::error::Error;
 use crate::kernel::{Host, Kernel, Problem};
 
-/// About one principal axis, by an angle, for whose half stands its tangent: the orientation, which is no unit then, and the
-/// angular momentum along the principal axes.
+/// A rotation about one principal axis by an angle, given by the tangent of its half: of the orientation, which is then not normalized, and
+/// of the angular momentum along the principal axes.
 fn about(axis: DVec3, angle: f64, (q, momentum): (DQuat, DVec3)) -> (DQuat, DVec3) {
     let turn = DQuat::from_xyzw(0.5 * angle * axis.x, 0.5 * angle * axis.y, 0.5 * angle * axis.z, 1.0);
     (q * turn, turn.normalize().inverse() * momentum)
 }
 
-/// The kernel, for a part of the step: the body turns, and its angular velocity with it, so that R I Rᵀ ω stays.
+/// The kernel, for a part of the step: rotates the body, and its angular velocity with it, so that R I Rᵀ ω is constant.
 ///
 /// # Errors
 /// When a shader does not compile.

@@ -75,13 +75,13 @@ fn facing(orientation: DVec4) -> DQuat {
     DQuat::from_vec4(orientation).normalize()
 }
 
-/// 1 / I; about an axis without a moment nothing turns.
+/// 1 / I; a body does not rotate about an axis without a moment.
 fn lightness(inertia: DVec3) -> DVec3 {
     let of = |moment: f64| if moment > 0.0 { moment.recip() } else { 0.0 };
     DVec3::new(of(inertia.x), of(inertia.y), of(inertia.z))
 }
 
-/// A kernel of one invocation for each body. Its shader knows which bodies are held and active where it needs that.
+/// A kernel of one invocation for each body. Its shader has the files on fixed and inactive bodies if it needs them.
 fn kernel(
     verb: &str,
     body: &Body,

@@ -21,7 +21,7 @@ impl Body {
     }
 }
 
-/// The kernel that finds q' and ω'.
+/// The kernel that computes q' and ω'.
 ///
 /// # Errors
 /// When a shader does not compile.
@@ -44,7 +44,7 @@ pub fn slopes(body: &Body, problem: &Problem) -> Result<Kernel, Error> {
         Ok(())
     };
     let slopes = kernel("slopes", body, crate::shader!("rotation/slopes.wgsl"), None, problem, Arc::new(reference))?;
-    // They are made anew each time, whatever they were.
+    // They are recomputed each time.
     let count = u64::from(problem.capacity);
     Ok(Kernel { sizes: vec![(body.rate(), count), (body.acceleration(), count)], ..slopes })
 }

@@ -1,8 +1,8 @@
 //! `checkpoint_*.npz`: all that a run needs to continue, in one file.
 //!
 //! It is the archive of the state, which `numpy.load` and `--from` read, with entries `run/…` beside the arrays: the scene with every
-//! value, the files that it reads, the lengths of tables, and what the host knows. Every entry has its checksum, and `run/run.toml` is
-//! the last of them, so that an archive that was cut is known.
+//! value, the files that it reads, the lengths of tables, and the host's data of the run. Every entry has a checksum, and `run/run.toml` is
+//! the last one, so that a truncated archive is detected.
 
 use std::collections::BTreeSet;
 use std::fs::{self, File};
@@ -23,19 +23,19 @@ use crate::life::Life;
 use crate::render::Exposure;
 use crate::state::State;
 
-/// The entries beside arrays begin with it.
+/// The prefix of the entries beside arrays.
 const RUN: &str = "run/";
 const HEAD: &str = "run.toml";
 const SCENE: &str = "scene.toml";
 const TRAIL: &str = "trail.f64";
 const KEPT: &str = "kept.f32";
 const FILM: &str = "film.npz";
-/// Files that the scene reads are in folders of it.
+/// The folder of the files that the scene reads.
 const FILE: &str = "files/";
-/// The number of the format.
+/// The version of the format.
 const FORMAT: u64 = 1;
 
-/// What runs it.
+/// The program and the machine of a run.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) struct Place {
     pub version: String,
@@ -43,16 +43,16 @@ pub(super) struct Place {
     pub precision: Precision,
 }
 
-/// What the host knows of a run beside its state.
+/// The host's data of a run in addition to its state.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub(super) struct Past {
-    /// Steps of dt at which the run began, and that are done.
+    /// The steps of dt before the run began, and those done.
     pub begun: u64,
     pub done: u64,
     pub lengths: Lengths,
-    /// Results that were in the folder.
+    /// The results in the folder.
     pub results: BTreeSet<String>,
-    /// The largest kinetic energy and change of the total one, and states that were measured.
+    /// The largest kinetic energy, the largest change of the total energy, and the number of measured states.
     pub kinetic: f64,
     pub change: f64,
     pub looks: u64,
@@ -61,23 +61,23 @@ pub(super) struct Past {
     pub film: Reel,
 }
 
-/// How far a film is.
+/// The progress of a film.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub(super) struct Reel {
     pub done: u64,
     pub outside: u64,
     pub exposure: Option<Exposure>,
-    /// The state by which the camera was set up, and the pushes of the trail then.
+    /// The state for which the camera was set up, and the number of pushes to the trail at that time.
     pub first: Option<State>,
-    /// Whether that says which particles are active: files do not where all are.
+    /// Whether that state has a life column: files have none where all particles are active.
     pub life: bool,
     pub pushes: u64,
-    /// Steps, and pushes, of states that are to be drawn; their positions and velocities, one behind another.
+    /// Steps of the states to be drawn, and the number of pushes to the trail at each; their positions and velocities, one state after another.
     pub steps: Vec<u64>,
     pub numbers: Vec<f32>,
 }
 
-/// A checkpoint that was read, and found whole.
+/// A checkpoint that was read completely and verified.
 #[derive(Debug)]
 pub struct Checkpoint {
     file: PathBuf,
@@ -87,11 +87,11 @@ pub struct Checkpoint {
     pub(super) place: Place,
     pub(super) packed: Packed,
     pub(super) past: Past,
-    /// Where its files are, until this is dropped.
+    /// The folder of its files, which is deleted when this is dropped.
     folder: tempfile::TempDir,
 }
 
-/// Writes a checkpoint. It is whole or not there, and no other file is touched.
+/// Writes a checkpoint. It is written completely or not at all, and no other file is changed.
 pub(super) fn write(
     path: &Path,
     name: &str,
@@ -99,7 +99,7 @@ pub(super) fn write(
     packed: &Packed,
     past: &Past,
 ) -> Result<(), Error> {
-    // All 64 bits, as TOML has them.
+    // All 64 bits, as a signed TOML integer.
     let number = |x: u64| Value::Integer(x.cast_signed());
     let list = |all: &mut dyn Iterator<Item = u64>| Value::Array(all.map(number).collect());
     let film = &past.film;
@@ -151,11 +151,11 @@ impl Checkpoint {
     /// Reads a checkpoint, all of it: every checksum is compared.
     ///
     /// # Errors
-    /// [`Error::Input`] with what is wrong with the file.
+    /// [`Error::Input`] with the fault of the file.
     pub fn read(file: &Path) -> Result<Self, Error> {
         Self::examine(file).map_err(|fault| fault.of(file))
     }
-    /// The same, with what kind of fault it is.
+    /// The same, with the kind of the fault.
     pub(super) fn examine(file: &Path) -> Result<Self, Unread> {
         read(file)
     }
@@ -179,22 +179,22 @@ impl Checkpoint {
     pub fn scene(&self) -> &str {
         &self.packed.scene
     }
-    /// Where the files are that the scene reads, until this is dropped.
+    /// The folder of the files that the scene reads, which is deleted when this is dropped.
     #[must_use]
     pub fn folder(&self) -> &Path {
         self.folder.path()
     }
-    /// The state with which the run began, where that was not the scene's.
+    /// The file of the state with which the run began, if it was not that of the scene.
     #[must_use]
     pub fn from(&self) -> Option<PathBuf> {
         let mut names = self.packed.files.iter().map(|(name, _)| name);
         Some(self.folder().join(names.find(|name| name.starts_with(FROM))?))
     }
-    /// Its state, of these columns.
+    /// Its state, with these columns.
     pub(super) fn state(&self, columns: &Columns) -> Result<State, Error> {
         npz::read(&self.file, columns)
     }
-    /// The state by which the camera of the film was set up, if there is one.
+    /// The state for which the camera of the film was set up, if there is one.
     pub(super) fn film(&self, columns: &Columns) -> Result<Option<State>, Error> {
         let file = self.folder().join(FILM);
         let mut state = file.exists().then(|| npz::read(&file, columns)).transpose()?;
@@ -205,22 +205,22 @@ impl Checkpoint {
     }
 }
 
-/// Why a checkpoint is not read.
+/// The reason why a checkpoint cannot be read.
 #[derive(Debug)]
 pub(super) enum Unread {
-    /// It is cut or damaged: an older one may be whole.
+    /// It is truncated or damaged: an older one may be intact.
     Damaged(String),
-    /// The machine does not read it, or this version: nothing is known of it.
+    /// It cannot be read by the system, or by this version: it may be intact.
     Refused(String),
 }
 
 impl Unread {
-    /// The same of this file, for people.
+    /// The error of this file, for the user.
     pub(super) fn of(self, file: &Path) -> Error {
         let (Self::Damaged(message) | Self::Refused(message)) = self;
         Error::Input { file: file.to_owned(), message }
     }
-    /// What the system says is a fault of the machine; what a reader of archives says is damage.
+    /// An error of the operating system is a fault of the machine; an error of the archive reader is damage.
     fn from(error: &io::Error, damage: String) -> Self {
         if error.raw_os_error().is_some() {
             Self::Refused(format!("cannot be read: {error}"))
@@ -258,7 +258,7 @@ fn read(file: &Path) -> Result<Checkpoint, Unread> {
         let name = entry.name().to_owned();
         let damaged = |why: &dyn std::fmt::Display| format!("is damaged: `{name}` {why}");
         let same = named(&mut raw, entry.header_start()).is_ok_and(|own| own == name.as_bytes());
-        // Entries that share bytes would be read again and again.
+        // Entries that share bytes would be read repeatedly.
         let alone = starts.insert(entry.header_start());
         sizes = sizes.saturating_add(entry.size());
         if !same || !alone || entry.compression() != CompressionMethod::Stored || sizes > length {
@@ -335,7 +335,7 @@ fn read(file: &Path) -> Result<Checkpoint, Unread> {
     })
 }
 
-/// The name of an entry where the entry itself is: the list at the end of an archive has it a second time, without a checksum.
+/// The name of an entry in its local header: the directory at the end of an archive repeats it, without a checksum.
 fn named(raw: &mut BufReader<File>, start: u64) -> io::Result<Vec<u8>> {
     raw.seek(SeekFrom::Start(start))?;
     let mut head = [0; 30];
@@ -345,7 +345,7 @@ fn named(raw: &mut BufReader<File>, start: u64) -> io::Result<Vec<u8>> {
     Ok(name)
 }
 
-/// A folder and a file in it, which lead nowhere else.
+/// A folder and a file in it, with no path that leads elsewhere.
 fn within(name: &str) -> Option<(&str, &str)> {
     let (folder, end) = name.split_once('/')?;
     let plain = !folder.is_empty() && folder.bytes().all(|c| c.is_ascii_alphanumeric());

@@ -18,11 +18,11 @@ use crate::scene::Scene;
 use crate::simulation::Simulation;
 use crate::state::State;
 
-/// A state, until it is drawn.
+/// A state that is not drawn yet.
 #[derive(Debug)]
 struct Kept {
     step: u64,
-    /// Pushes of the trail until then.
+    /// The number of pushes to the trail at that time.
     pushes: u64,
     position: Vec<Vec4>,
     velocity: Vec<Vec4>,
@@ -38,21 +38,21 @@ pub struct Film {
     dt: f64,
     rate: u16,
     name: String,
-    /// Whether the camera looks by itself.
+    /// Whether the camera is set up automatically.
     auto_frame: bool,
     reel: Option<render::Film>,
-    /// The state by which the camera was set up, and the pushes of the trail then.
+    /// The state for which the camera was set up, and the number of pushes to the trail at that time.
     first: Option<(State, u64)>,
-    /// States of a few particles, to be drawn when it is known where they go.
+    /// States of runs with few particles, drawn at the end when their extent is known.
     kept: Vec<Kept>,
     done: Vec<PathBuf>,
-    /// Particles out of the last frame.
+    /// The number of particles outside the last frame.
     outside: u32,
     stream: Stream,
 }
 
 impl Film {
-    /// The film that a scene asks for; there may be none.
+    /// The film of a scene, if it has one.
     pub(super) fn of(scene: &Scene, begun: u64, rate: u16, stream: &Stream) -> Option<Self> {
         (scene.output.frames > 0).then(|| Self {
             frames: scene.output.frames,
@@ -70,23 +70,23 @@ impl Film {
             stream: stream.clone(),
         })
     }
-    /// The frames that are there.
+    /// The frames that are written.
     #[must_use]
     pub fn done(&self) -> &[PathBuf] {
         &self.done
     }
-    /// Frames in a second.
+    /// Frames per second.
     #[must_use]
     pub fn rate(&self) -> u16 {
         self.rate
     }
-    /// Particles out of the last frame, of so many, where the camera has looked by itself.
+    /// The number of particles outside the last frame, and of all, where the camera was set up automatically.
     #[must_use]
     pub fn outside(&self) -> Option<(u32, u32)> {
         let count = self.reel.as_ref()?.picture().frame.count;
         self.auto_frame.then_some((self.outside, count))
     }
-    /// Digits of the numbers of frames.
+    /// The number of digits in the numbers of frames.
     #[must_use]
     pub fn digits(&self) -> usize {
         (self.frames - 1).to_string().len().max(4)
@@ -96,13 +96,13 @@ impl Film {
     pub fn file(&self) -> String {
         format!("{}_film.png", self.name)
     }
-    /// After how many steps the next frame is taken; `None` after the last.
+    /// The step of the next frame; `None` after the last.
     pub(super) fn next(&self) -> Option<u64> {
         let taken = (self.done.len() + self.kept.len()) as u64;
         step(taken, self.frames, self.steps - self.begun).map(|step| self.begun + step)
     }
-    /// Takes the next frame. The first one decides where the camera stands and what colours mean; a few particles, whose
-    /// states are small, are only drawn in the end, by a camera that has all of their trails in view.
+    /// Takes the next frame. The first one determines the camera and the colour scale; runs with few particles, whose states are small, are
+    /// drawn only at the end, by a camera that shows all of their trails.
     pub(super) async fn shoot<B: Backend>(
         &mut self,
         simulation: &mut Simulation<B>,
@@ -118,7 +118,7 @@ impl Film {
         }
         self.draw(simulation, to, trail.clone(), step, progress).await
     }
-    /// Draws the states that are kept. The simulation is at its end: it is left with one of them.
+    /// Draws the stored states. The simulation is at its end, and is left with one of them.
     pub(super) async fn develop<B: Backend>(
         &mut self,
         simulation: &mut Simulation<B>,
@@ -136,7 +136,7 @@ impl Film {
         }
         Ok(())
     }
-    /// Sets up the camera by a state.
+    /// Sets up the camera for a state.
     fn begin(
         &mut self,
         first: (State, u64),
@@ -179,7 +179,7 @@ impl Film {
     fn frame(&self, number: usize) -> String {
         format!("frames/frame_{number:0w$}.png", w = self.digits())
     }
-    /// Joins the frames that are there, if there are some.
+    /// Joins the frames that are written, if any.
     pub(super) fn join(&self, folder: &Folder) -> Result<(), Error> {
         if self.done.is_empty() {
             return Ok(());
@@ -187,10 +187,10 @@ impl Film {
         self.stream.drain()?;
         images::join(&folder.file(&self.file())?, &self.done, self.rate)
     }
-    /// So many frames, which are there.
+    /// The first `done` frames, which must exist.
     ///
     /// # Errors
-    /// [`Error::Output`] with the first that is not.
+    /// [`Error::Output`] with the first one that is missing.
     pub(super) fn there(&self, done: u64, folder: &Folder) -> Result<Vec<PathBuf>, Error> {
         let one = |number| {
             let file = folder.file(&self.frame(number))?;
@@ -203,7 +203,7 @@ impl Film {
         };
         (0..usize::try_from(done).unwrap_or(usize::MAX)).map(one).collect()
     }
-    /// What a checkpoint keeps of it.
+    /// The data of the film in a checkpoint.
     pub(super) fn kept(&self) -> Reel {
         let four = |all: &[Vec4]| all.iter().flat_map(Vec4::to_array).collect::<Vec<f32>>();
         let numbers = self.kept.iter().flat_map(|kept| [four(&kept.position), four(&kept.velocity)].concat());
@@ -218,7 +218,7 @@ impl Film {
             numbers: numbers.collect(),
         }
     }
-    /// Goes on from a checkpoint, of so many particles.
+    /// Continues from a checkpoint with `count` particles.
     ///
     /// # Errors
     /// [`Error::Output`] when a frame is no longer there, [`Error::Input`] when the checkpoint does not fit.
@@ -251,7 +251,7 @@ impl Film {
     }
 }
 
-/// After how many steps frame `k` of `frames` is taken: the first before any, the last after all, and an only one too.
+/// The step of frame `k` of `frames`: the first one before any step, the last one after all, and a single one too.
 fn step(k: u64, frames: u64, steps: u64) -> Option<u64> {
     if k >= frames {
         return None;

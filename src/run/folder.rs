@@ -1,4 +1,4 @@
-//! The folder that a run writes into: it belongs to one run at a time, and nothing in it is lost without being asked for.
+//! The folder that a run writes into: it belongs to one run at a time, and nothing in it is deleted unless requested.
 
 use std::collections::BTreeSet;
 use std::fs::{self, File, OpenOptions, TryLockError};
@@ -11,16 +11,16 @@ use crate::measure::{MEASURES, Measure};
 
 /// The file that is locked while a run writes.
 const LOCK: &str = ".motes-lock";
-/// Where the pictures of a film are.
+/// The folder of the pictures of a film.
 const FRAMES: &str = "frames";
-/// What stands before the name of the scene in that line.
+/// The text before the name of the scene in that line.
 const NAMED: &str = ", as ";
 
 /// Files that a run writes under one name, beside the last good state.
 const NAMES: &[&str] = &["scene.toml", "energy.svg", "snapshots.pvd"];
-/// Files of which it writes many, with the number of a step or a picture between these, beside states.
+/// Files of which it writes many, with the number of a step or a picture between these two strings.
 const NUMBERED: &[(&str, &str)] = &[("links_", "csv"), ("picture_", "png"), ("frame_", "png"), CHECKPOINT];
-/// What a run continues from.
+/// The files from which a run continues.
 const CHECKPOINT: (&str, &str) = ("checkpoint_", "npz");
 /// States, and the last good one, in any format.
 const STATE: &str = "snapshot_";
@@ -38,15 +38,14 @@ pub struct Folder {
 }
 
 impl Folder {
-    /// What the resolved scene says in the line about the run.
+    /// The start of the line about the run in the resolved scene.
     pub const SIGNATURE: &str = "# Run by motes ";
 
-    /// Whether a run of the scene `name`, which reads the files `read`, may write into the folder. It may not where its
-    /// results would replace a file that it reads, a file that no run has written, or, unless `overwrite` is set, those of
-    /// another run.
+    /// Whether a run of the scene `name`, which reads the files `read`, may write into the folder. It may not if its results would replace
+    /// a file that it reads, a file that no run has written, or, unless `overwrite` is set, those of another run.
     ///
     /// # Errors
-    /// [`Error::Output`] with the file that stands in the way.
+    /// [`Error::Output`] with the file that would be replaced.
     pub fn examine(path: &Path, name: &str, read: &[PathBuf], overwrite: bool) -> Result<(), Error> {
         let Some(inside) = fs::canonicalize(path).ok().filter(|found| found.is_dir()) else { return Ok(()) };
         let earlier = earlier(path);
@@ -84,8 +83,8 @@ impl Folder {
         }
     }
 
-    /// Makes the folder and locks it for a run of the scene `name`, which reads the files `read`; with `overwrite` it
-    /// removes the results of an earlier run. What a run that was killed has left half written is removed, too.
+    /// Creates the folder and locks it for a run of the scene `name`, which reads the files `read`; with `overwrite` it removes the results
+    /// of an earlier run. Partly written files of a killed run are removed, too.
     ///
     /// # Errors
     /// [`Error::Output`] where [`Folder::examine`] refuses, another run holds the lock, or the folder cannot be made.
@@ -94,13 +93,13 @@ impl Folder {
         Self::examine(path, name, read, overwrite)?;
         let earlier = earlier(path);
         let mut old = results(path, &[Some(name), earlier.as_deref()]).map_err(|why| failed(path, &why))?;
-        // The signature goes last: what is left by a removal that was broken off is still known as results.
+        // The file with the signature is removed last: if a removal is interrupted, the rest is still recognised as results.
         old.sort_by_key(|file| file == Path::new("scene.toml"));
         removed(old.into_iter().map(|file| path.join(file)).chain(parts(path)))?;
         Ok(folder)
     }
 
-    /// Makes the folder and locks it for a run whose scene is not known yet; nothing in it is removed.
+    /// Creates the folder and locks it for a run whose scene is not known yet; nothing in it is removed.
     ///
     /// # Errors
     /// [`Error::Output`] where another run holds the lock, or the folder cannot be made.
@@ -128,7 +127,7 @@ impl Folder {
         self
     }
 
-    /// The names of results that are there, but for checkpoints.
+    /// The names of existing results, except checkpoints.
     ///
     /// # Errors
     /// [`Error::Output`] when the folder cannot be read.
@@ -138,7 +137,7 @@ impl Folder {
         Ok(names.map(|name| name.replace('\\', "/")).collect())
     }
 
-    /// Removes results but for these, and what is half written. Gives how many results were removed.
+    /// Removes all results except these, and partly written files. Returns the number of removed results.
     ///
     /// # Errors
     /// [`Error::Output`] when a file cannot be removed.
@@ -158,7 +157,7 @@ impl Folder {
         self.file(&format!("{}{step:010}.{}", CHECKPOINT.0, CHECKPOINT.1))
     }
 
-    /// The checkpoints that are there, the newest first.
+    /// The existing checkpoints, the newest first.
     ///
     /// # Errors
     /// [`Error::Output`] when the folder cannot be read.
@@ -170,7 +169,7 @@ impl Folder {
         Ok(found)
     }
 
-    /// Removes checkpoints up to this step but for the newest of them. Those behind it were passed over, and stay.
+    /// Removes checkpoints up to this step except the newest of them. Later ones, which were passed over, are kept.
     ///
     /// # Errors
     /// [`Error::Output`] when a file cannot be removed.
@@ -178,19 +177,19 @@ impl Folder {
         removed(self.checkpoints()?.into_iter().filter(|file| number_of(file) <= Some(step)).skip(most))
     }
 
-    /// Where it is.
+    /// Its path.
     #[must_use]
     pub fn path(&self) -> &Path {
         &self.path
     }
 
-    /// What is not wrong, but worth a remark: that the file system has no locks.
+    /// A remark, which is no error: the file system has no locks.
     #[must_use]
     pub fn remark(&self) -> Option<&str> {
         self.remark.as_deref()
     }
 
-    /// The line at the end of the resolved scene by which a later run knows what belongs to this one.
+    /// The line at the end of the resolved scene by which a later run recognises the results of this one.
     #[must_use]
     pub fn signature(&self, device: &str) -> String {
         format!("{}{} on {device}{NAMED}{}\n", Self::SIGNATURE, env!("CARGO_PKG_VERSION"), self.name)
@@ -199,7 +198,7 @@ impl Folder {
     /// The path of a result.
     ///
     /// # Errors
-    /// [`Error::Output`] where a later run would not know the name as that of a result.
+    /// [`Error::Output`] if a later run would not recognise the name as that of a result.
     pub fn file(&self, name: &str) -> Result<PathBuf, Error> {
         let path = self.path.join(name);
         if is_result(name, &[Some(&self.name)]) {
@@ -212,14 +211,14 @@ impl Folder {
 
 impl Drop for Folder {
     fn drop(&mut self) {
-        // While the lock is held: a process that waits for it looks whether the file is still the one that has the name.
+        // While the lock is held: a process that waits for it checks whether the path still refers to the same file.
         if self.lock.is_some() {
             let _ = fs::remove_file(self.path.join(LOCK));
         }
     }
 }
 
-/// What came of a try to lock.
+/// The result of an attempt to lock.
 enum Locked {
     Here(File),
     Elsewhere,
@@ -243,7 +242,7 @@ fn locked(path: &Path) -> io::Result<Locked> {
     Ok(Locked::Elsewhere)
 }
 
-/// Whether a file that is open still has this path.
+/// Whether an open file still has this path.
 #[cfg(unix)]
 fn is_there(file: &File, path: &Path) -> bool {
     use std::os::unix::fs::MetadataExt;
@@ -251,20 +250,20 @@ fn is_there(file: &File, path: &Path) -> bool {
     (open.dev(), open.ino()) == (named.dev(), named.ino())
 }
 
-/// Elsewhere a file that is open keeps its name.
+/// On other systems an open file keeps its name.
 #[cfg(not(unix))]
 fn is_there(_: &File, path: &Path) -> bool {
     path.exists()
 }
 
-/// The name of the scene whose results are in the folder, where there are some; empty where an old run did not say it.
+/// The name of the scene whose results are in the folder, if any; empty if an old run did not record it.
 fn earlier(path: &Path) -> Option<String> {
     let text = fs::read_to_string(path.join("scene.toml")).ok()?;
     let line = text.lines().rev().find_map(|line| line.strip_prefix(Folder::SIGNATURE))?;
     Some(line.rsplit_once(NAMED).map_or_else(String::new, |(_, name)| name.to_owned()))
 }
 
-/// Names in the folder that are those of results of these scenes, in order; links count as what they are called.
+/// Names in the folder that are those of results of these scenes, in order; symbolic links count by their names.
 fn results(path: &Path, scenes: &[Option<&str>]) -> io::Result<Vec<PathBuf>> {
     let mut found = Vec::new();
     for entry in fs::read_dir(path)? {
@@ -295,7 +294,7 @@ fn results(path: &Path, scenes: &[Option<&str>]) -> io::Result<Vec<PathBuf>> {
     Ok(found)
 }
 
-/// Files that a run which was killed has left half written.
+/// Partly written files of a killed run.
 fn parts(path: &Path) -> Vec<PathBuf> {
     let inside = |folder: PathBuf| fs::read_dir(folder).into_iter().flatten().flatten();
     let is_part = |name: &str| name.strip_suffix(".part").is_some_and(|stem| stem.starts_with(".motes-"));

@@ -8,10 +8,10 @@ use crate::scene::Scene;
 use crate::settings::plain;
 use crate::simulation::Setup;
 
-/// Puts the state of a file, which an earlier run of the scene has written, in the place of the scene's own.
+/// Replaces the state of a scene by that of a file which an earlier run of the scene has written.
 ///
 /// # Errors
-/// [`Error::Input`] when the file is of other particles, holds no clock that is needed, or is at the end of the run.
+/// [`Error::Input`] when the file has other particles, lacks a required time, or is at the end of the run.
 pub fn go_on(setup: &mut Setup, scene: &Scene, path: &Path) -> Result<(), Error> {
     let mut state = formats::read(path, &setup.columns()?)?;
     let refuse = |message: String| Err(Error::Input { file: path.to_owned(), message });
@@ -31,7 +31,7 @@ pub fn go_on(setup: &mut Setup, scene: &Scene, path: &Path) -> Result<(), Error>
         (state.step, state.time) = (step, step as f64 * scene.dt);
     }
     if state.step == 0 && state.time > 0.0 && scene.adaptive_step.is_none() {
-        // Formats that hold a time, and no step.
+        // For formats that hold a time, and no step.
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "above 0, or saturated")]
         let steps = (state.time / scene.dt).round() as u64;
         state.step = steps;
@@ -52,7 +52,7 @@ pub fn go_on(setup: &mut Setup, scene: &Scene, path: &Path) -> Result<(), Error>
                 .to_owned(),
         );
     }
-    // In adaptive steps time alone says how far it is.
+    // With adaptive steps only the time gives the progress.
     let over = if scene.adaptive_step.is_some() { state.time >= scene.until } else { state.step >= scene.steps };
     if over {
         return refuse(format!(
@@ -68,14 +68,14 @@ pub fn go_on(setup: &mut Setup, scene: &Scene, path: &Path) -> Result<(), Error>
     }
 }
 
-/// The step in the name of a table that a run has written, `snapshot_0100.csv`: a table holds no clock.
+/// The step in the name of a table that a run has written, `snapshot_0100.csv`: a table holds neither time nor step.
 fn numbered(path: &Path) -> Option<u64> {
     let table = path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("csv"));
     let name = path.file_stem()?.to_str()?;
     name.strip_prefix("snapshot_").filter(|_| table)?.parse().ok()
 }
 
-/// What is to be said where a simulation begins at this step.
+/// The remark where a simulation begins at this step.
 pub(super) fn remark(goes_on: bool, step: u64, time: f64) -> String {
     let way = if goes_on {
         "with the restart data of its last step"

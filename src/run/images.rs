@@ -1,4 +1,4 @@
-//! Pictures, films and plots as files. A build without the feature `images` writes none, and refuses a run that asks for pictures.
+//! Pictures, films and plots as files. A build without the feature `images` writes none, and refuses a run that requires pictures.
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -10,10 +10,10 @@ use crate::measure::Energy;
 use crate::render::Image;
 use crate::scene::Output;
 
-/// Whether this build writes what a scene asks for.
+/// Whether this build can write the pictures of a scene.
 ///
 /// # Errors
-/// [`Error::Scene`] when it asks for pictures or a film, and this build writes none.
+/// [`Error::Scene`] when it requires pictures or a film, and this build writes none.
 pub fn check(output: &Output) -> Result<(), Error> {
     if cfg!(feature = "images") || !(output.pictures || output.frames > 0) {
         return Ok(());
@@ -33,17 +33,17 @@ pub fn save(image: &Image, path: &Path) -> Result<(), Error> {
     Err(unwritten(path, image.rgba.len()))
 }
 
-/// The same behind all that a run writes until now, without waiting for it.
+/// The same, after all files queued so far, without waiting.
 pub fn save_later(image: &Arc<Image>, path: PathBuf, folder: &Arc<Folder>, stream: &Stream) -> Result<(), Error> {
     let (image, folder) = (image.clone(), folder.clone());
     stream.write(&path.clone(), image.rgba.len(), move || {
-        // The folder stays locked until the file is there.
+        // The folder stays locked until the file is written.
         let _held = folder;
         save(&image, &path)
     })
 }
 
-/// A film of pictures that are files.
+/// A film of picture files.
 pub fn join(path: &Path, frames: &[PathBuf], rate: u16) -> Result<(), Error> {
     #[cfg(feature = "images")]
     return crate::formats::apng::write_apng(path, frames, rate);
@@ -51,7 +51,7 @@ pub fn join(path: &Path, frames: &[PathBuf], rate: u16) -> Result<(), Error> {
     Err(unwritten(path, frames.len() * usize::from(rate)))
 }
 
-/// A plot of energies; a build without the feature `images` has but their table.
+/// A plot of energies; a build without the feature `images` writes only their table.
 #[cfg_attr(not(feature = "images"), expect(clippy::unnecessary_wraps, reason = "with that feature it may fail"))]
 pub fn energy(path: &Path, rows: &[Energy], title: &str) -> Result<(), Error> {
     #[cfg(feature = "images")]

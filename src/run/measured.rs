@@ -13,9 +13,9 @@ use crate::simulation::Setup;
 /// A measure in the course of a run, with its table.
 #[derive(Debug)]
 pub struct Measured {
-    /// What is measured.
+    /// The measure.
     pub measure: &'static Measure,
-    /// What was measured until now.
+    /// The results so far.
     pub series: Box<dyn Series>,
     /// The name of its table.
     file: String,
@@ -29,10 +29,10 @@ pub struct Measured {
 }
 
 impl Measured {
-    /// The measures that a scene chooses, and those that are usual for such a run, in the order of the register.
+    /// The measures that a scene chooses, and the default ones of such a run, in the order of the register.
     ///
     /// # Errors
-    /// What is wrong with a measure in such a run.
+    /// The fault of a measure in such a run.
     pub(super) fn all(chosen: &[Chosen], setup: &Setup) -> Result<Vec<Self>, Error> {
         let mut all = Vec::new();
         for measure in MEASURES {
@@ -57,15 +57,15 @@ impl Measured {
     pub fn file(&self) -> &str {
         &self.file
     }
-    /// The step of dt of its next row, where these are apart from outputs.
+    /// The step of dt of its next row, where its rows are independent of outputs.
     pub(super) fn next(&self, done: u64) -> u64 {
         self.every.map_or(u64::MAX, |every| (done / every + 1).saturating_mul(every))
     }
-    /// Whether it is taken after so many steps of dt, or at this output.
+    /// Whether it is taken after `done` steps of dt, or at this output.
     pub(super) fn is_due(&self, done: u64, is_output: bool) -> bool {
         self.every.map_or(is_output, |every| done.is_multiple_of(every))
     }
-    /// Opens its table. Where the run continues, it is cut back to what a checkpoint quotes, and the rows that are left are taken in.
+    /// Opens its table. Where the run continues, it is truncated to the length in the checkpoint, and the remaining rows are read.
     pub(super) fn open(&mut self, folder: &Arc<Folder>, past: &Lengths) -> Result<(), Error> {
         let (table, rows) = Table::open(folder, &self.file, &self.measure.header(), past)?;
         for cells in rows.iter() {

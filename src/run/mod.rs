@@ -1,4 +1,4 @@
-//! Runs: a scene is run to its end, its outputs are written, and it continues after it was stopped or killed.
+//! Runs: a scene is run to its end, its outputs are written, and it can continue after it was stopped or killed.
 //!
 //! ```no_run
 //! use motes::run::{Options, Run};
@@ -81,34 +81,34 @@ use packed::Packed;
 use schedule::Schedule;
 use stream::Stream;
 
-/// How long one batch of steps should take: a request to stop is heard between two.
+/// The target duration of a batch of steps: a request to stop is checked between two.
 const BATCH: Duration = Duration::from_millis(250);
-/// Between two measurements of the energy for a bar that is watched, at least.
+/// The minimum time between two measurements of the energy for a progress bar.
 const LOOK: Duration = Duration::from_secs(1);
 
-/// Options of a run beside those of its scene.
+/// Options of a run in addition to those of its scene.
 #[derive(Debug, Clone)]
 pub struct Options {
     /// The folder for results.
     pub output: PathBuf,
-    /// Whether results of an earlier run that are there are removed.
+    /// Whether existing results of an earlier run are removed.
     pub overwrite: bool,
     /// Whether the ledger of a fluid, `fluid.csv`, gets a row after every step.
     pub ledger: bool,
-    /// How many pictures of a film are shown in a second.
+    /// The frame rate of a film \[1/s\].
     pub fps: u16,
-    /// What it runs on, in words: adapter and driver.
+    /// A description of the device: adapter and driver.
     pub device: String,
-    /// Double where the references run, whose numbers have 64 bits.
+    /// Double for the references, which compute in 64 bits.
     pub precision: Precision,
-    /// The file of the state with which it begins, where that is not the scene's: see [`go_on`].
+    /// The file of the state with which it begins, if it is not that of the scene: see [`go_on`].
     pub from: Option<PathBuf>,
     /// Requests to stop it early.
     pub stop: Stop,
 }
 
 impl Options {
-    /// Those of a run on a device, into this folder.
+    /// The default options of a run on a device, into this folder.
     #[must_use]
     pub fn into(output: impl Into<PathBuf>) -> Self {
         Self {
@@ -122,7 +122,7 @@ impl Options {
             stop: Stop::default(),
         }
     }
-    /// What of it decides about results, a line each.
+    /// The options that affect results, a line each.
     fn also(&self) -> String {
         format!("fps = {}\nledger = {}\n", self.fps, self.ledger)
     }
@@ -137,61 +137,61 @@ fn has_sides(bounds: &Bounds) -> bool {
 pub struct Run {
     scene: Scene,
     options: Options,
-    /// Steps of dt at which it begins.
+    /// The number of steps of dt before it begins.
     begun: u64,
     count: usize,
     columns: Columns,
     packed: Packed,
-    /// What writes files, beside the run.
+    /// The thread that writes files.
     stream: Stream,
     /// The folder, held until this is dropped.
     folder: Option<Arc<Folder>>,
-    /// Where it continues, until it does.
+    /// The checkpoint from which it continues, until it has.
     resumed: Option<Checkpoint>,
-    /// Steps of dt that were done when it continued.
+    /// The number of steps of dt done when it continued.
     goes_on: Option<u64>,
     schedule: Schedule,
-    /// What is measured at outputs, in the order of the register.
+    /// The measures at outputs, in the order of the register.
     pub measures: Vec<Measured>,
     /// Pictures of outputs.
     pub pictures: Pictures,
-    /// The film, if one is asked for.
+    /// The film, if there is one.
     pub film: Option<Film>,
-    /// What was seen of the energies.
+    /// The statistics of the energies.
     pub looks: Looks,
-    /// More writers, which take every output.
+    /// Additional writers, which receive every output.
     pub writers: Vec<Box<dyn Writer>>,
     states: States,
-    /// How far it is.
+    /// The progress.
     pub course: Option<Course>,
-    /// Springs at the start, and what is left of them, where they may break.
+    /// The number of springs at the start, and the present one, where they may break.
     pub springs: (usize, Option<usize>),
-    /// The last state that was read, and so the last that is known to be good.
+    /// The last state that was read, which is the last one known to be valid.
     pub last: Option<Arc<State>>,
 }
 
-/// How a run ended.
+/// The end of a run.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct End {
     /// Whether it was stopped before its last step; it can continue from the checkpoint that was written then.
     pub stopped: bool,
-    /// Steps that were made since it began, or continued.
+    /// The number of steps since it began, or continued.
     pub steps: u64,
-    /// How long these took, without measurements and files.
+    /// The duration of these, without measurements and files.
     pub stepping: Duration,
 }
 
 impl Run {
-    /// A run of a scene whose setup this is.
+    /// A run of a scene with this setup.
     ///
     /// # Errors
-    /// [`Error::Output`] when the folder holds what must not be replaced, [`Error::Input`] when a file of the scene is gone, and what
-    /// is wrong with pictures.
+    /// [`Error::Output`] when the folder contains files that must not be replaced, [`Error::Input`] when a file of the scene is missing,
+    /// and errors of pictures.
     pub fn new(scene: Scene, setup: &Setup, options: Options) -> Result<Self, Error> {
         Folder::examine(&options.output, &scene.name, &scene.files, options.overwrite)?;
         Self::of(scene, setup, options, None)
     }
-    /// A run of a scene, into a folder that is held or will be.
+    /// A run of a scene, into a folder that is or will be locked.
     fn of(scene: Scene, setup: &Setup, options: Options, folder: Option<Arc<Folder>>) -> Result<Self, Error> {
         let packed = Packed::of(&scene, options.also(), options.from.as_deref())?;
         let begun = course::begun(&scene, &setup.state);
@@ -241,12 +241,12 @@ impl Run {
     pub fn scene(&self) -> &Scene {
         &self.scene
     }
-    /// How many particles it has.
+    /// The number of particles.
     #[must_use]
     pub fn count(&self) -> usize {
         self.count
     }
-    /// How it is written down.
+    /// Its options.
     #[must_use]
     pub fn options(&self) -> &Options {
         &self.options
@@ -254,15 +254,14 @@ impl Run {
     /// Runs a simulation of the scene to its end, and writes its outputs.
     ///
     /// # Errors
-    /// What goes wrong with the simulation, and [`Error::Output`] when a result cannot be written. The last checkpoint stays, if there
-    /// is one.
+    /// Errors of the simulation, and [`Error::Output`] when a result cannot be written. The last checkpoint is kept, if there is one.
     pub async fn drive<B: Backend>(
         &mut self,
         simulation: &mut Simulation<B>,
         progress: &mut dyn Progress,
     ) -> Result<End, Error> {
         let end = self.whole(simulation, progress).await;
-        // Whatever ended it: what was taken until then is written.
+        // Whatever ended the run, outputs up to then are written.
         let written = self.stream.drain();
         end.and_then(|end| written.map(|()| end))
     }
@@ -271,7 +270,7 @@ impl Run {
         simulation: &mut Simulation<B>,
         progress: &mut dyn Progress,
     ) -> Result<End, Error> {
-        // Everything that can be refused was refused: from here on files are written.
+        // All checks are done: from here on files are written.
         let folder = self.open(progress)?;
         if simulation.steps() > 0 || simulation.goes_on() {
             let time = simulation.clock().await?.map_or(simulation.steps() as f64 * self.scene.dt, |clock| clock.time);
@@ -289,7 +288,7 @@ impl Run {
         let stepping = self.advance(simulation, &mut course, &folder, progress).await?;
         let stopped = course.done() < self.scene.steps;
         if stopped {
-            // Before what only a run that is stopped here writes.
+            // Before the files that only a stopped run writes.
             self.save(simulation, &course, progress).await?;
         }
         if self.energies().last().is_none_or(|row| row.step != simulation.steps()) {
@@ -312,7 +311,7 @@ impl Run {
         self.course = Some(course);
         Ok(End { stopped, steps, stepping })
     }
-    /// Steps until the run ends or is stopped. Gives how long steps took.
+    /// Steps until the run ends or is stopped. Returns the duration of the steps.
     async fn advance<B: Backend>(
         &mut self,
         simulation: &mut Simulation<B>,
@@ -356,7 +355,7 @@ impl Run {
             } else if self.measures_between(course.done()) {
                 self.enter(simulation, course, progress).await?;
             } else if self.looks.is_due(course.done()) || progress.watched() && looked.elapsed() > LOOK.max(look * 20) {
-                // The energy between two outputs, and for a bar that is watched for a twentieth of the time at most.
+                // The energy between two outputs, and for a progress bar for a twentieth of the time at most.
                 let start = Instant::now();
                 let snapshot = Arc::new(simulation.snapshot().await?);
                 self.look(snapshot, course, progress)?;
@@ -369,7 +368,7 @@ impl Run {
         }
         Ok(stepping)
     }
-    /// Takes the present state for the film, if it is one of its frames.
+    /// Takes the present state for the film, if a frame is due.
     async fn shoot<B: Backend>(
         &mut self,
         simulation: &mut Simulation<B>,

@@ -1,4 +1,4 @@
-//! An output: the present state is measured, and handed to all writers.
+//! An output: the present state is measured, and passed to all writers.
 
 use std::any::Any;
 use std::sync::Arc;
@@ -17,7 +17,7 @@ use crate::sph::DENSITY;
 use crate::state::State;
 
 impl Run {
-    /// Hands the present state to all writers.
+    /// Passes the present state to all writers.
     pub(super) async fn write<B: Backend>(
         &mut self,
         simulation: &mut Simulation<B>,
@@ -36,7 +36,7 @@ impl Run {
         if self.energies().len() == 1 {
             self.pictures.trail.push(state.position());
         }
-        // The energies are in their table.
+        // The energies are written to their table.
         if !wanted.contains(&"potential") {
             Arc::make_mut(&mut state).remove("potential");
         }
@@ -101,14 +101,14 @@ impl Run {
         }
         Ok(())
     }
-    /// Whether measures are due that are apart from outputs.
+    /// Whether measures are due that are independent of outputs.
     pub(super) fn measures_between(&self, done: u64) -> bool {
         self.measures.iter().any(|one| one.is_due(done, false) || one.each_step)
     }
     async fn density<B: Backend>(&self, simulation: &mut Simulation<B>) -> Result<Vec<f32>, Error> {
         if self.series::<Book>().is_some() { simulation.read(DENSITY).await } else { Ok(Vec::new()) }
     }
-    /// The series of that type, if the run takes such a measure: `run.series::<Flocks>()`. Of several the first.
+    /// The series of that type, if the run has such a measure: `run.series::<Flocks>()`; the first, if there are several.
     #[must_use]
     pub fn series<S: Series>(&self) -> Option<&S> {
         self.measures.iter().find_map(|one| (&*one.series as &dyn Any).downcast_ref())
@@ -118,7 +118,7 @@ impl Run {
     pub fn energies(&self) -> &[Energy] {
         self.series::<Energies>().map(Energies::rows).unwrap_or_default()
     }
-    /// The energies with which the run began.
+    /// The energies at the start of the run.
     pub(super) fn first(&self) -> Energy {
         self.energies().first().copied().unwrap_or_default()
     }

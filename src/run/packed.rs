@@ -1,4 +1,4 @@
-//! A scene with all that it reads: what a checkpoint needs of it.
+//! A scene with all files that it reads, for a checkpoint.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -11,17 +11,17 @@ use crate::scene::{self, Scene};
 pub(super) struct Packed {
     /// Every value of the scene.
     pub scene: String,
-    /// What else decides what a run writes, a line each.
+    /// The options that affect results, a line each.
     pub also: String,
     /// Names and contents.
     pub files: Vec<(String, Vec<u8>)>,
 }
 
-/// The folder of the state from which a run was begun.
+/// The folder of the state with which a run was begun.
 pub(super) const FROM: &str = "from/";
 
 impl Packed {
-    /// Reads the files of a scene, and the state with which it begins, if that is another.
+    /// Reads the files of a scene, and the state with which it begins, if that is from a file.
     pub(super) fn of(scene: &Scene, also: String, from: Option<&Path>) -> Result<Self, Error> {
         let (text, named) = scene.packed();
         let end = |path: &Path| path.file_name().map(|name| scene::plain(&name.to_string_lossy())).unwrap_or_default();
@@ -32,7 +32,7 @@ impl Packed {
         };
         Ok(Self { scene: text, also, files: named.map(read).collect::<Result<_, Error>>()? })
     }
-    /// What another has otherwise, in words; nothing where they are the same.
+    /// The difference to another one, in words; `None` where they are equal.
     pub(super) fn difference(&self, other: &Self) -> Option<String> {
         let lines = |packed: &Self| format!("{}\n{}", packed.scene, packed.also);
         let (here, there) = (lines(self), lines(other));

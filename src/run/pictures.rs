@@ -25,21 +25,21 @@ pub struct Pictures {
     picture: Settings,
     groups: Vec<Group>,
     digits: usize,
-    /// Steps from one point of a trail to the next.
+    /// The number of steps between two points of a trail.
     stride: u64,
     folder: Option<Arc<Folder>>,
     stream: Stream,
-    /// Where a few particles have been.
+    /// The trails, for runs with few particles.
     pub(super) trail: Trail,
-    /// What pictures show beside particles.
+    /// The objects that pictures show in addition to particles.
     pub(super) scenery: Scenery,
     last: Option<Arc<Image>>,
 }
 
 impl Pictures {
-    /// Those that a scene asks for, of so many particles.
+    /// The pictures of a scene with `count` particles.
     pub(super) fn new(scene: &Scene, count: usize, scenery: Scenery, stream: Stream) -> Self {
-        // A trail is for pictures.
+        // A trail is needed only for pictures.
         let drawn = scene.output.pictures || scene.output.frames > 0;
         Self {
             name: scene.name.clone(),
@@ -65,11 +65,11 @@ impl Pictures {
     pub fn last(&self) -> Option<&Image> {
         self.last.as_deref()
     }
-    /// How many steps there are until the trail gets its next point; none where nothing is kept.
+    /// The number of steps until the next point of the trail; `None` where there is no trail.
     pub(super) fn until_point(&self, steps: u64) -> Option<u64> {
         self.trail.wanted().then(|| self.stride - steps % self.stride)
     }
-    /// Whether the trail gets a point after so many steps.
+    /// Whether the trail gets a point after `steps` steps.
     pub(super) fn points_at(&self, steps: u64) -> bool {
         self.trail.wanted() && steps.is_multiple_of(self.stride)
     }
@@ -81,7 +81,7 @@ impl Pictures {
         };
         let groups: Vec<u32> = (0..snapshot.len()).map(of).collect();
         let mut picture = Picture::with(&self.picture, snapshot, &groups, trail, &self.scenery.at(snapshot.time))?;
-        // Colours that the scene gives count before those of the palette, unless another was asked for.
+        // Colours of the scene take precedence over the palette, unless another colouring was chosen.
         if !["speed", "heading"].contains(&self.picture.text("color")) && self.groups.iter().any(|g| g.color.is_some())
         {
             let color = |group: &u32| {

@@ -11,26 +11,26 @@ use plotters::coord::ranged1d::{Ranged, ValueFormatter};
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
-/// Width and height, as a viewer shows it.
+/// Width and height in pixels of a viewer.
 const SIZE: (u32, u32) = (960, 720);
-/// The backend rounds to integers: so many of them for each pixel make smooth lines.
+/// The number of units per pixel: the backend rounds to integers, and this makes lines smooth.
 const FINE: u32 = 8;
-/// Of axes and words.
+/// The colour of axes and text.
 pub const INK: RGBColor = RGBColor(38, 42, 51);
-/// Of meshes.
+/// The colour of meshes.
 pub const FAINT: RGBColor = RGBColor(226, 229, 235);
 const KINETIC: RGBColor = RGBColor(214, 112, 32);
 const POTENTIAL: RGBColor = RGBColor(36, 104, 196);
 const DRIFT: RGBColor = RGBColor(150, 40, 110);
-/// Errors below this are drawn at it: f64 does not tell them from none.
+/// Errors below this are drawn at it: f64 cannot resolve them.
 const FLOOR: f64 = 1e-16;
 
 /// A part of a picture.
 pub type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
 type Points = Vec<(f64, f64)>;
 
-/// Draws the measurements of a run: energies above, the relative error of the total below; the drift of the momentum
-/// instead, where there is no energy to compare with. What is not finite is left out.
+/// Draws the measurements of a run: energies above, the relative error of the total below, or the drift of the momentum, where there is no
+/// energy to compare with. Values that are not finite are left out.
 ///
 /// # Errors
 /// [`Error::Output`] when the file cannot be written.
@@ -38,7 +38,7 @@ pub fn energy(path: &Path, rows: &[Energy], title: &str) -> Result<(), Error> {
     write(path, SIZE, |root| panels(root, rows, title))
 }
 
-/// Draws into an SVG of so many pixels, which is there when all is done.
+/// Draws into an SVG of `size` pixels, which is written when the drawing is complete.
 ///
 /// # Errors
 /// [`Error::Output`] when the file cannot be written.
@@ -65,26 +65,26 @@ fn panels(root: &Area, rows: &[Energy], title: &str) -> Result<(), String> {
     root.draw_text(title, &style, (fine(20), fine(28))).map_err(|e| e.to_string())?;
     let (_, below) = root.split_vertically(fine(52));
     let (upper, lower) = below.split_vertically(fine(370));
-    // Above the upper panel, to the right, where no line is.
+    // Above the upper panel, to the right, outside the lines.
     let names = [("kinetic", KINETIC), ("potential", POTENTIAL), ("total", INK)];
     legend(root, &names, (SIZE.0.cast_signed() - 320, 28), 105)?;
     energies(&upper, rows)?;
     errors(&lower, rows)
 }
 
-/// Pixels, as the backend counts them.
+/// Pixels in units of the backend.
 #[must_use]
 pub fn fine(pixels: i32) -> i32 {
     pixels * FINE.cast_signed()
 }
 
-/// Letters of so many pixels.
+/// Text with a height of `size` pixels.
 #[must_use]
 pub fn text(size: i32) -> TextStyle<'static> {
     ("sans-serif", fine(size)).into_font().color(&INK)
 }
 
-/// A line as wide as so many pixels.
+/// A line of a width in pixels.
 #[must_use]
 pub fn line(color: RGBColor, width: u32) -> ShapeStyle {
     color.stroke_width(width * FINE)
@@ -92,25 +92,25 @@ pub fn line(color: RGBColor, width: u32) -> ShapeStyle {
 
 /// One axis of a chart.
 pub struct Axis<'a> {
-    /// What stands along it; nothing where it is empty.
+    /// Its title; none if it is empty.
     pub title: &'a str,
-    /// How many numbers stand at it, at most.
+    /// The maximum number of labels.
     pub labels: usize,
-    /// How a number is written.
+    /// The format of a number.
     pub format: &'a dyn Fn(f64) -> String,
 }
 
 impl<'a> Axis<'a> {
-    /// An axis with ten numbers at most.
+    /// An axis with at most ten labels.
     pub fn new(title: &'a str, format: &'a dyn Fn(f64) -> String) -> Self {
         Self { title, labels: 10, format }
     }
 }
 
-/// Draws the axes and the mesh of a chart: so look those of all plots.
+/// Draws the axes and the mesh of a chart, in the common style of all plots.
 ///
 /// # Errors
-/// What the drawing says.
+/// Errors of the drawing.
 pub fn axes<X, Y>(
     chart: &mut ChartContext<'_, SVGBackend<'_>, Cartesian2d<X, Y>>,
     x: &Axis,
@@ -165,10 +165,10 @@ fn energies(area: &Area, rows: &[Energy]) -> Result<(), String> {
     Ok(())
 }
 
-/// Names beside dashes of their colours, in a row: the first dash begins at `at`, and each is so many pixels from the one before.
+/// Names beside dashes of their colours, in a row: the first dash begins at `at`, and successive ones are `apart` pixels apart.
 ///
 /// # Errors
-/// What the backend says.
+/// Errors of the backend.
 pub fn legend(area: &Area, names: &[(&str, RGBColor)], at: (i32, i32), apart: i32) -> Result<(), String> {
     let style = text(14).pos(Pos::new(HPos::Left, VPos::Center));
     for (place, (name, color)) in (0..).zip(names) {
@@ -196,7 +196,7 @@ fn errors(area: &Area, rows: &[Energy]) -> Result<(), String> {
         .map_err(|e| e.to_string())?;
     let x = Axis { labels: 8, ..Axis::new("time", &short) };
     axes(&mut chart, &x, &Axis { labels: 6, ..Axis::new(what, &|y| format!("{y:.0e}")) })?;
-    // A logarithm has no place for "no error": it is left out, or drawn on the lower edge if there is nothing else.
+    // A logarithmic axis cannot show a zero error: it is left out, or drawn on the lower edge if all errors are zero.
     let none = values.iter().all(|(_, error)| *error == 0.0);
     let seen = values.into_iter().filter(|(_, error)| none || *error > 0.0);
     let values: Points = seen.map(|(time, error)| (time, error.max(low))).collect();
@@ -236,14 +236,14 @@ fn points(rows: &[Energy], value: impl Fn(&Energy) -> f64) -> Points {
         .collect()
 }
 
-/// From the first to the last; never empty.
+/// The range of times; never empty.
 fn times(rows: &[Energy]) -> (f64, f64) {
     let finite = || rows.iter().map(|row| row.time).filter(|time| time.is_finite());
     let (first, last) = (finite().fold(f64::INFINITY, f64::min), finite().fold(f64::NEG_INFINITY, f64::max));
     if first < last { (first, last) } else { range(finite()) }
 }
 
-/// From the lowest to the highest with a little room; never empty.
+/// The range of values with a margin; never empty.
 fn range(values: impl Iterator<Item = f64>) -> (f64, f64) {
     let finite = values.filter(|x| x.is_finite());
     let (low, high) = finite.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(x), high.max(x)));
@@ -251,7 +251,7 @@ fn range(values: impl Iterator<Item = f64>) -> (f64, f64) {
         return (0.0, 1.0);
     }
     let size = low.abs().max(high.abs());
-    // A constant is a line in the middle, not noise blown up to the height of the panel.
+    // A constant is a line in the middle, rather than noise scaled to the height of the panel.
     let room = if high - low > 1e-9 * size {
         0.06 * (high - low)
     } else if size > 0.0 {

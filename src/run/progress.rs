@@ -14,7 +14,7 @@ pub trait Progress {
     fn warning(&mut self, text: &str) {
         self.remark(text);
     }
-    /// So many steps are done.
+    /// Reports the number of completed steps.
     fn at(&mut self, step: u64) {
         let _ = step;
     }
@@ -22,7 +22,7 @@ pub trait Progress {
     fn measured(&mut self, row: &Energy, first: &Energy) {
         let _ = (row, first);
     }
-    /// Whether it wants to know the energy more often than outputs tell.
+    /// Whether the energy should be measured more often than at outputs.
     fn watched(&self) -> bool {
         false
     }

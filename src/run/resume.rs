@@ -1,4 +1,4 @@
-//! How a run is kept and continues: checkpoints are written, the newest whole one is found, and results are cut back to it.
+//! Checkpoints and continuation: checkpoints are written, the newest intact one is found, and results are truncated to it.
 
 use std::io::Write as _;
 use std::path::PathBuf;
@@ -21,10 +21,10 @@ use crate::scene::{Scene, Source};
 use crate::simulation::{Setup, Simulation};
 use crate::state::State;
 
-/// What the resolved scene says behind all else, once its run is complete.
+/// The start of the last line of the resolved scene of a completed run.
 const COMPLETE: &str = "# Complete at step ";
 
-/// What a run that continues finds in its folder.
+/// The results that a run which continues finds in its folder.
 #[derive(Debug)]
 pub enum Found {
     /// No results.
@@ -33,19 +33,19 @@ pub enum Found {
     Begun,
     /// All results of a run, which ended at this step.
     Complete(u64),
-    /// A checkpoint, the newest that is whole; and what is wrong with those that are newer.
+    /// The newest intact checkpoint, and the errors of newer ones.
     Checkpoint(Box<Checkpoint>, Vec<Error>),
 }
 
 impl Found {
-    /// Looks into a folder that is held.
+    /// Examines a locked folder.
     ///
     /// # Errors
-    /// [`Error::Input`] when there are checkpoints, and none of them is whole, or one cannot be read for another reason than damage.
+    /// [`Error::Input`] when there are checkpoints, and all are damaged, or one cannot be read for a reason other than damage.
     pub fn of(folder: &Folder) -> Result<Self, Error> {
         let text = std::fs::read_to_string(folder.path().join("scene.toml")).unwrap_or_default();
         if let Some(step) = complete(&text) {
-            // A run that was killed behind its mark has left them.
+            // Left by a run that was killed just after it was marked as complete.
             folder.keep_checkpoints(0, u64::MAX)?;
             return Ok(Self::Complete(step));
         }
@@ -69,14 +69,14 @@ impl Found {
     }
 }
 
-/// The step at which a run is complete, by its resolved scene: the line behind the signature says it. A scene's own comments are before both.
+/// The step at which a run is complete, by the line after the signature in its resolved scene. A scene's own comments are before both.
 fn complete(text: &str) -> Option<u64> {
     let mut lines = text.lines().rev();
     let step = lines.next()?.strip_prefix(COMPLETE)?.parse().ok()?;
     lines.next()?.starts_with(Folder::SIGNATURE).then_some(step)
 }
 
-/// The scene that a run which continues has signed when it began.
+/// The scene that was signed when the run began.
 fn signed(folder: &Folder) -> Option<String> {
     let text = std::fs::read_to_string(folder.path().join("scene.toml")).ok()?;
     let (scene, signature) = text.rsplit_once(&format!("\n{}", Folder::SIGNATURE))?;
@@ -91,7 +91,7 @@ pub fn is_of(folder: &Folder, scene: &Scene) -> bool {
 }
 
 impl Checkpoint {
-    /// Where its scene is, for [`Scene::load`].
+    /// The source of its scene, for [`Scene::load`].
     #[must_use]
     pub fn source(&self) -> Source {
         Source::Text {
@@ -100,7 +100,7 @@ impl Checkpoint {
             folder: self.folder().to_owned(),
         }
     }
-    /// How its run was started, with results in this folder.
+    /// The options with which its run was started, with results in this folder.
     #[must_use]
     pub fn options(&self, output: impl Into<PathBuf>) -> Options {
         let also: toml::Table = self.packed.also.parse().unwrap_or_default();
@@ -111,11 +111,11 @@ impl Checkpoint {
 }
 
 impl Run {
-    /// A run that continues from a checkpoint in the folder, which is fixed; `setup` gets its state. Scene and options must be those
-    /// with which it was begun, as [`Checkpoint::source`] and [`Checkpoint::options`] give them.
+    /// A run that continues from a checkpoint in the folder, which stays locked; `setup` gets its state. Scene and options must be those
+    /// with which it was begun, as [`Checkpoint::source`] and [`Checkpoint::options`] return them.
     ///
     /// # Errors
-    /// [`Error::Scene`] when the scene is another, [`Error::Input`] when the checkpoint does not fit it.
+    /// [`Error::Scene`] when the scene differs, [`Error::Input`] when the checkpoint does not fit it.
     pub fn resume(
         scene: Scene,
         setup: &mut Setup,
@@ -144,7 +144,7 @@ impl Run {
         run.resumed = Some(from);
         Ok(run)
     }
-    /// Compares what a checkpoint says with its state, the scene and the folder, before anything is cut back to it.
+    /// Compares a checkpoint with its state, the scene and the folder, before anything is truncated to it.
     fn fits(&self, from: &Checkpoint, state: &State) -> Result<(), Error> {
         let (past, reel, (step, time)) = (&from.past, &from.past.film, from.at());
         let refuse = |what: String| {
@@ -177,12 +177,12 @@ impl Run {
         }
         Ok(())
     }
-    /// What runs it.
+    /// The program and the machine of this run.
     fn place(&self) -> Place {
         let version = env!("CARGO_PKG_VERSION").to_owned();
         Place { version, device: self.options.device.clone(), precision: self.options.precision }
     }
-    /// What of version and device is another than when the checkpoint was written.
+    /// The differences in version and device since the checkpoint was written.
     fn moved(&self, from: &Checkpoint) -> Option<String> {
         let (was, is) = (&from.place, self.place());
         let pairs = [("version", &was.version, &is.version), ("device", &was.device, &is.device)];
@@ -193,7 +193,7 @@ impl Run {
         (!words.is_empty())
             .then(|| format!("{}: bits may be others than those of a run that was never stopped", words.join("; ")))
     }
-    /// Opens folder and tables. Where the run continues, it is cut back to what was there at the checkpoint.
+    /// Opens folder and tables. Where the run continues, they are truncated to the checkpoint.
     pub(super) fn open(&mut self, progress: &mut dyn Progress) -> Result<Arc<Folder>, Error> {
         let folder = if let Some(folder) = self.folder.take() {
             folder
@@ -217,12 +217,12 @@ impl Run {
         }
         if let Some(from) = from {
             self.go_on(&from, &folder, progress)?;
-            // With it goes the folder of its files.
+            // The folder of its files is deleted with it.
             self.goes_on = Some(from.past.done);
         }
         Ok(folder)
     }
-    /// What the host knew at a checkpoint.
+    /// Restores the host's data of the run.
     fn go_on(&mut self, from: &Checkpoint, folder: &Arc<Folder>, progress: &mut dyn Progress) -> Result<(), Error> {
         let past = &from.past;
         let gone = folder.keep_only(&past.results)?;
@@ -243,8 +243,8 @@ impl Run {
         }
         Ok(())
     }
-    /// Writes the scene with every value, by which a later run knows what belongs to this one; and that it is complete. Where the run went
-    /// on, the scene is the one that it signed first: files that it names are there, and those of the checkpoint are not.
+    /// Writes the scene with every value, by which a later run recognises the results of this one, and whether it is complete. Where the
+    /// run was continued, it is the scene that was signed first: the files that it names exist, and those of the checkpoint do not.
     pub(super) fn sign(&self, folder: &Folder, complete: Option<u64>) -> Result<(), Error> {
         let first = self.goes_on.and_then(|_| signed(folder));
         let scene = first.unwrap_or_else(|| self.scene.resolved_in(folder.path()));
@@ -262,7 +262,7 @@ impl Run {
         let Some(folder) = self.folder.clone() else { return Ok(()) };
         let begun = Instant::now();
         let state = simulation.snapshot().await?;
-        // What it counts as results is there, and rows that it quotes are on the disk.
+        // All results that it lists exist, and rows that it counts are on the disk.
         self.stream.drain()?;
         let mut lengths = Lengths::new();
         for table in self.tables() {

@@ -1,28 +1,28 @@
-//! When checkpoints are due.
+//! The times at which checkpoints are due.
 
 use web_time::{Duration, Instant};
 
 use crate::scene::Every;
 
-/// When the next checkpoint is due.
+/// The time at which the next checkpoint is due.
 #[derive(Debug)]
 pub(super) struct Schedule {
     every: Every,
     since: Instant,
-    /// Whole intervals that were gone at the last one.
+    /// The number of whole intervals up to the last one.
     gone: u64,
-    /// How long the last one took.
+    /// The time that the last one took to write.
     pub(super) took: Duration,
 }
 
 impl Schedule {
-    /// For a run that begins after so many steps, at this time.
+    /// For a run that begins after `steps` steps, at this time.
     pub(super) fn new(every: Every, steps: u64, time: f64) -> Self {
         let mut schedule = Self { every, since: Instant::now(), gone: 0, took: Duration::ZERO };
         schedule.gone = schedule.intervals(steps, time);
         schedule
     }
-    /// Whole intervals from the start of the run, where they are counted by it.
+    /// The number of whole intervals from the start of the run, for intervals of steps or time.
     fn intervals(&self, steps: u64, time: f64) -> u64 {
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "above 0, or saturated")]
         match self.every {
@@ -31,7 +31,7 @@ impl Schedule {
             Every::Wall(_) | Every::Never => 0,
         }
     }
-    /// How many steps of at most `dt` can be made before one may be due; at least one.
+    /// The number of steps of at most `dt` before one may be due; at least one.
     pub(super) fn most(&self, steps: u64, time: f64, dt: f64) -> u64 {
         match self.every {
             Every::Steps(some) => some.max(1) - steps % some.max(1),
@@ -51,7 +51,7 @@ impl Schedule {
             _ => self.intervals(steps, time) > self.gone,
         }
     }
-    /// One was written, which was begun at this instant.
+    /// Records a checkpoint whose writing began at this instant.
     pub(super) fn written(&mut self, steps: u64, time: f64, begun: Instant) {
         (self.gone, self.since, self.took) = (self.intervals(steps, time), Instant::now(), begun.elapsed());
     }

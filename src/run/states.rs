@@ -1,4 +1,4 @@
-//! `snapshot_*`: states in every format that is numbers, and `links_*`: what is left of links that may break.
+//! `snapshot_*`: states in every numerical format, and `links_*`: the remaining links, where they may break.
 
 use std::path::Path;
 use std::sync::{Arc, Mutex, PoisonError};
@@ -18,21 +18,21 @@ use crate::state::State;
 pub struct States {
     formats: Vec<&'static Format>,
     options: Options,
-    /// Of the numbers of steps.
+    /// The number of digits of step numbers.
     digits: usize,
     folder: Option<Arc<Folder>>,
     stream: Stream,
-    /// What ParaView opens instead of all of them, where they are of VTK.
+    /// The list of VTK files, which ParaView opens in place of each of them.
     listed: Arc<Mutex<Option<Collection>>>,
 }
 
 impl States {
-    /// In these formats, for a run of so many steps.
+    /// Writes these formats, for a run of `steps` steps.
     pub(super) fn new(formats: &[&'static Format], options: Options, steps: u64, stream: Stream) -> Self {
         let digits = steps.to_string().len();
         Self { formats: formats.to_vec(), options, digits, folder: None, stream, listed: Arc::default() }
     }
-    /// What is to be said of columns of a state that files do not hold.
+    /// Remarks on columns of a state that files do not hold.
     pub(super) fn left_out(&self, state: &State) -> Vec<String> {
         let some = |format: &&'static Format| {
             let names = format.left_out.map(|left_out| left_out(state)).filter(|names| !names.is_empty())?;
@@ -63,7 +63,7 @@ impl Writer for States {
             let parts = parts.collect::<Result<Vec<_>, Error>>()?;
             let Some((path, _)) = parts.first().cloned() else { continue };
             let list = (format.name == "vtp").then(|| folder.file(Collection::NAME)).transpose()?;
-            // The folder stays locked until the file is there.
+            // The folder stays locked until the file is written.
             let (folder, listed) = (folder.clone(), self.listed.clone());
             let (file, format, state, options) = (path.clone(), *format, state.clone(), self.options.clone());
             self.stream.write(&path, stream::size(&state), move || {
@@ -79,7 +79,7 @@ impl Writer for States {
             })?;
         }
         if let (Some(links), false) = (moment.links, self.formats.is_empty()) {
-            // `[[links]] file` reads it.
+            // Read by `[[links]] file`.
             let path = folder.file(&format!("links_{:0width$}.csv", state.step))?;
             let (folder, file, links) = (folder.clone(), path.clone(), links.clone());
             self.stream.write(&path, stream::tied(&links), move || {

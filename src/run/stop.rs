@@ -1,12 +1,12 @@
-//! When a run ends before its last step.
+//! Requests to end a run before its last step.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use web_time::{Duration, Instant};
 
-/// What ends a run early: it finishes its batch of steps, writes a checkpoint and its last state, and can continue later. Clones share
-/// the request, so that a signal handler or another thread can ask.
+/// A request to end a run early: the run finishes its batch of steps, writes a checkpoint and its last state, and can continue later.
+/// Clones share the request, so that a signal handler or another thread can make it.
 #[derive(Debug, Clone)]
 pub struct Stop {
     asked: Arc<AtomicBool>,
@@ -21,21 +21,21 @@ impl Default for Stop {
 }
 
 impl Stop {
-    /// One that also ends a run when so much time has passed since now.
+    /// A request that also ends a run after the duration `longest` from now.
     #[must_use]
     pub fn after(longest: Duration) -> Self {
         Self { longest: Some(longest), ..Self::default() }
     }
-    /// Asks the run to end.
+    /// Requests the end of the run.
     pub fn ask(&self) {
         self.asked.store(true, Ordering::Relaxed);
     }
-    /// Whether that was asked.
+    /// Whether the end was requested.
     #[must_use]
     pub fn is_asked(&self) -> bool {
         self.asked.load(Ordering::Relaxed)
     }
-    /// Whether the run is to end now, where its end will take this long.
+    /// Whether the run must end now, where writing its end takes this long.
     #[must_use]
     pub fn asked(&self, end: Duration) -> bool {
         self.is_asked() || self.longest.is_some_and(|longest| self.since.elapsed() + end >= longest)

@@ -1,4 +1,4 @@
-//! The files of a run: one thread writes them in the order in which they were handed over, so that the device does not wait for the disk.
+//! The files of a run: one thread writes them in the order in which they are queued, so that the device does not wait for the disk.
 
 use std::collections::VecDeque;
 use std::fmt;
@@ -11,27 +11,27 @@ use crate::error::Error;
 use crate::links::Links;
 use crate::state::State;
 
-/// How much may wait to be written, with what is being written \[bytes\]; a larger file is taken when nothing else waits.
+/// The size limit of the queue, including the file being written \[bytes\]; a larger file is accepted when the queue is empty.
 const BYTES: usize = 256 << 20;
-/// How many files may wait.
+/// The maximum number of files in the queue.
 const FILES: usize = 64;
 
-/// A file, and what writes it.
+/// A file, and the function that writes it.
 struct Job {
     file: PathBuf,
     bytes: usize,
     write: Box<dyn FnOnce() -> Result<(), Error> + Send>,
 }
 
-/// What waits, and what went wrong.
+/// The queue, and its first error.
 #[derive(Default)]
 struct Queue {
     jobs: VecDeque<Job>,
-    /// How much and how many are not written yet, with the one that is being written.
+    /// The total size and number of files that are not written yet, including the one being written.
     bytes: usize,
     files: usize,
     closed: bool,
-    /// The first file that could not be written: nothing is written behind it.
+    /// The first file that could not be written: no later file is written.
     failed: Option<(PathBuf, String)>,
 }
 
@@ -59,7 +59,7 @@ impl Shared {
     fn wait<'a>(&self, queue: MutexGuard<'a, Queue>) -> MutexGuard<'a, Queue> {
         self.changed.wait(queue).unwrap_or_else(PoisonError::into_inner)
     }
-    /// Writes what comes, until the queue is closed and empty.
+    /// Writes queued files, until the queue is closed and empty.
     fn work(&self) {
         while let Some(job) = self.next() {
             let (bytes, failed) = (job.bytes, written(job));
@@ -71,7 +71,7 @@ impl Shared {
                 (queue.bytes, queue.files, queue.failed) = (0, 0, failed);
             }
             drop(queue);
-            // What they hold is let go of here.
+            // The data of the jobs is freed here.
             drop(dropped);
             self.changed.notify_all();
         }
@@ -87,9 +87,9 @@ impl Shared {
     }
 }
 
-/// Writes a file. Gives what went wrong, and with which.
+/// Writes a file. Returns the error, and its file.
 fn written(Job { file, write, .. }: Job) -> Option<(PathBuf, String)> {
-    // A panic that ended the thread would leave the run waiting forever.
+    // If a panic ended the thread, the run would wait forever.
     match catch_unwind(AssertUnwindSafe(write)) {
         Ok(Ok(())) => None,
         Ok(Err(Error::Output { file, message })) => Some((file, message)),
@@ -98,13 +98,13 @@ fn written(Job { file, write, .. }: Job) -> Option<(PathBuf, String)> {
     }
 }
 
-/// Takes files that are to be written. Clones share one thread, which ends with the last of them, when all is written.
+/// A queue of files to write. Clones share one thread, which ends with the last clone, when all files are written.
 #[derive(Clone)]
 pub(super) struct Stream(Arc<Thread>);
 
 struct Thread {
     shared: Arc<Shared>,
-    /// `None` where no thread can be started: then files are written at once.
+    /// `None` if no thread can be started: then files are written at once.
     thread: Option<JoinHandle<()>>,
 }
 
@@ -118,7 +118,7 @@ impl Default for Stream {
 }
 
 impl Stream {
-    /// Hands over a file of about this size, which `write` writes. Waits where too much is not written yet.
+    /// Queues a file of approximately this size, which `write` writes. Waits if the queue is full.
     ///
     /// # Errors
     /// [`Error::Output`] with the first file that could not be written, this one or one before.
@@ -145,14 +145,14 @@ impl Stream {
         shared.changed.notify_all();
         Ok(())
     }
-    /// Whether all is well so far.
+    /// Checks whether all files so far were written without an error.
     ///
     /// # Errors
     /// [`Error::Output`] with the first file that could not be written.
     pub fn check(&self) -> Result<(), Error> {
         self.0.shared.queue().check()
     }
-    /// Waits until all is written.
+    /// Waits until all files are written.
     ///
     /// # Errors
     /// [`Error::Output`] with the first file that could not be written.
@@ -182,12 +182,12 @@ impl fmt::Debug for Stream {
     }
 }
 
-/// How much memory the columns and links of a state take \[bytes\].
+/// The memory of the columns and links of a state \[bytes\].
 pub(super) fn size(state: &State) -> usize {
     state.columns().map(|(_, values)| values.bytes()).sum::<usize>() + tied(&state.links)
 }
 
-/// How much memory links take \[bytes\].
+/// The memory of links \[bytes\].
 pub(super) fn tied(Links { springs, rods, joints, triangles }: &Links) -> usize {
     size_of_val(&**springs) + size_of_val(&**rods) + size_of_val(&**joints) + size_of_val(&**triangles)
 }
@@ -205,7 +205,7 @@ mod tests {
     fn words(result: Result<(), Error>) -> String {
         result.map_or_else(|error| error.to_string(), |()| "well".to_owned())
     }
-    /// Without a thread.
+    /// A stream without a thread.
     fn here() -> Stream {
         Stream(Arc::new(Thread { shared: Arc::default(), thread: None }))
     }

@@ -1,5 +1,5 @@
-//! A table of numbers that grows while a run continues: every row is with the system when it is written, and on the
-//! disk with the next state. A run that continues cuts it back to where its checkpoint was, and reads the rows that are left.
+//! A table of numbers that grows during a run: every row is passed to the system when it is written, and is on the disk with the next
+//! state. A run that continues truncates it to the length in its checkpoint, and reads the remaining rows.
 
 use std::collections::BTreeMap;
 use std::fs::{self, File, OpenOptions};
@@ -11,7 +11,7 @@ use super::Folder;
 use super::stream::Stream;
 use crate::error::Error;
 
-/// How long the tables of a folder were at a checkpoint \[bytes\], by their names; empty where a run begins.
+/// The lengths of the tables of a folder at a checkpoint \[bytes\], by name; empty at the start of a run.
 pub type Lengths = BTreeMap<String, u64>;
 
 /// A file of comma-separated values.
@@ -24,11 +24,11 @@ pub struct Table {
 }
 
 impl Table {
-    /// A table with these names in its first line: a new one, or, where its length is quoted, the one that is there, cut back to that.
-    /// Gives the rows that it has, too. No link is followed, and nothing replaced.
+    /// A table with these names in its first line: a new one, or, if `past` has its length, the existing one, truncated to that. Also
+    /// returns the rows that it has. Symbolic links are not followed, and no file is replaced.
     ///
     /// # Errors
-    /// [`Error::Output`] when the file cannot be made, is there already, or is not the one that was quoted.
+    /// [`Error::Output`] when the file cannot be created, exists already, or differs from the one in `past`.
     pub fn open(folder: &Folder, name: &str, header: &str, past: &Lengths) -> Result<(Self, Rows), Error> {
         let path = folder.file(name)?;
         let failed = |error: std::io::Error| failure(&path, &error.to_string());
@@ -52,24 +52,24 @@ impl Table {
     pub fn name(&self) -> &str {
         &self.name
     }
-    /// How long it is \[bytes\].
+    /// Its length \[bytes\].
     #[must_use]
     pub fn length(&self) -> u64 {
         self.length
     }
-    /// Puts the rows on the disk, where a crash of the system does not reach them.
+    /// Flushes the rows to the disk, so that they survive a crash of the system.
     ///
     /// # Errors
     /// [`Error::Output`] when the disk fails.
     pub fn settle(&self) -> Result<(), Error> {
         synced(self.file.get_ref(), &self.path)
     }
-    /// The same behind all that a run writes until now, without waiting for it.
+    /// The same, after all files queued so far, without waiting.
     pub(super) fn settle_later(&self, stream: &Stream) -> Result<(), Error> {
         let (file, path) = (self.file.get_ref().clone(), self.path.clone());
         stream.write(&self.path, 0, move || synced(&file, &path))
     }
-    /// Adds a row: the step, and what belongs to it.
+    /// Adds a row: the step, and its numbers.
     ///
     /// # Errors
     /// [`Error::Output`] when the disk fails.
@@ -77,7 +77,7 @@ impl Table {
         let text: Vec<String> = numbers.iter().map(|x| format!("{x:?}")).collect();
         self.words(step, &text.join(","))
     }
-    /// The same with what belongs to it in words.
+    /// The same with text in place of numbers.
     ///
     /// # Errors
     /// [`Error::Output`] when the disk fails.
@@ -98,7 +98,7 @@ impl Rows {
     pub fn iter(&self) -> impl Iterator<Item = Vec<&str>> {
         self.0.lines().skip(1).map(|line| line.split(',').collect())
     }
-    /// The numbers of each row; what is NaN is NaN.
+    /// The numbers of each row; NaN stays NaN.
     pub fn numbers(&self) -> impl Iterator<Item = (u64, Vec<f64>)> {
         self.iter().map(|words| {
             let step = words.first().and_then(|word| word.parse().ok()).unwrap_or(0);
@@ -118,7 +118,7 @@ fn failure(path: &Path, message: &str) -> Error {
 /// Opens a table of at least this length.
 ///
 /// # Errors
-/// [`Error::Output`] where it is none.
+/// [`Error::Output`] where there is no such table.
 pub(super) fn holds(path: &Path, length: u64) -> Result<File, Error> {
     let failed = |error: std::io::Error| failure(path, &error.to_string());
     if !fs::symlink_metadata(path).map_err(failed)?.is_file() {
@@ -136,7 +136,7 @@ pub(super) fn holds(path: &Path, length: u64) -> Result<File, Error> {
     Ok(file)
 }
 
-/// Cuts a table back, and gives what is left.
+/// Truncates a table, and returns its remaining rows.
 fn cut(path: &Path, header: &str, length: u64) -> Result<(File, String), Error> {
     let failed = |error: std::io::Error| failure(path, &error.to_string());
     let (mut file, mut text) = (holds(path, length)?, String::new());

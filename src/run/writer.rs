@@ -8,9 +8,9 @@ use crate::error::Error;
 use crate::measure::Moment;
 use crate::render::{Image, Picture};
 
-/// Takes the state of every output of a run: writes a table, a file of particles, a picture, or shows it elsewhere.
+/// Receives the state of every output of a run, and writes a table, a file of particles or a picture, or displays it.
 pub trait Writer: Send + Sync {
-    /// Opens its files in the folder of the run. Where the run continues, `past` has the lengths of its tables.
+    /// Opens its files in the folder of the run. Where the run continues, `past` contains the lengths of its tables.
     ///
     /// # Errors
     /// [`Error::Output`] when a file cannot be made.
@@ -18,20 +18,20 @@ pub trait Writer: Send + Sync {
         let _ = (folder, past);
         Ok(())
     }
-    /// Takes a state.
+    /// Receives a state.
     ///
     /// # Errors
-    /// [`Error::Output`] when it cannot be written, or what else it finds wrong.
+    /// [`Error::Output`] when it cannot be written, or another error of the writer.
     fn take(&mut self, moment: &Moment<'_>) -> Result<(), Error>;
-    /// The picture of this state that is to be drawn, if it wants one.
+    /// The picture of this state to be drawn, if any.
     ///
     /// # Errors
-    /// What is wrong with the picture.
+    /// The error of the picture.
     fn picture(&mut self, moment: &Moment<'_>) -> Result<Option<Picture>, Error> {
         let _ = moment;
         Ok(None)
     }
-    /// Takes the picture that it wanted of this step.
+    /// Receives the picture of this step.
     ///
     /// # Errors
     /// [`Error::Output`] when it cannot be written.
@@ -39,11 +39,11 @@ pub trait Writer: Send + Sync {
         let _ = (step, image);
         Ok(())
     }
-    /// The tables to which it adds rows: a checkpoint quotes their lengths.
+    /// The tables to which it adds rows: a checkpoint stores their lengths.
     fn tables(&self) -> Vec<&Table> {
         Vec::new()
     }
-    /// The run is over: writes what is left.
+    /// The end of the run: writes the remaining data.
     ///
     /// # Errors
     /// [`Error::Output`] when it cannot be written.

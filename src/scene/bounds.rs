@@ -1,4 +1,4 @@
-//! `[box]`: where particles may be, and what is at its sides.
+//! `[box]`: the box and its sides.
 
 use std::borrow::Cow;
 
@@ -21,11 +21,11 @@ pub const BOX_KEYS: &[Key] = &[
     Key::new("boundary", Kind::Choice(Side::NAMES), PERIODIC, "the boundary at its sides"),
 ];
 const PERIODIC: Value = Value::Text(Cow::Borrowed("periodic"));
-/// Single axes that are otherwise, and `dimensions`.
+/// Axes with sides of their own, and `dimensions`.
 pub(super) const OWN: &[&str] = &["x", "y", "z", "dimensions"];
 const AXES: [&str; 3] = ["x", "y", "z"];
 
-/// Reads the section, and writes it out; without one space is open.
+/// Reads the section, and writes it out; without it space is open.
 pub(super) fn read(table: Option<&Table<'_>>, out: &mut Writer, report: &mut Report) -> Bounds {
     let Some(table) = table else { return Bounds::default() };
     let faults = report.len();
@@ -69,7 +69,7 @@ fn dimensions(table: &Table<'_>, report: &mut Report) -> Option<u32> {
     }
 }
 
-/// Along a closed axis there must be a way from side to side.
+/// Along a closed axis the size must be positive.
 fn sizes(table: &Table<'_>, size: DVec3, sides: [Side; 3], report: &mut Report) {
     let Some(entry) = table.get("size") else { return };
     let place = |axis: usize| -> &Place {

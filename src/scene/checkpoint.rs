@@ -12,25 +12,25 @@ pub(super) const KEYS: &[Key] =
     &[Key::new("keep", Kind::Count, Value::Number(2.0), "how many checkpoints are kept, the newest ones")];
 pub(super) const OWN: &[&str] = &["every"];
 
-/// When checkpoints are written, beside those of a run that is stopped.
+/// The times of checkpoints, in addition to that of a run that is stopped.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Every {
-    /// After so many seconds of work; above zero.
+    /// Each time that this many seconds have passed; positive.
     Wall(f64),
-    /// Each time that so many steps are done; at least one.
+    /// Each time that this many steps are done; at least one.
     Steps(u64),
-    /// Each time that so much time has passed in the scene; above zero.
+    /// Each time that this much simulated time has passed; positive.
     Time(f64),
-    /// Only where a run is stopped.
+    /// Only when a run is stopped.
     Never,
 }
 
 /// Checkpoints of a run.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Checkpoints {
-    /// When they are written.
+    /// The times.
     pub every: Every,
-    /// How many are kept; at least one.
+    /// The number that is kept; at least one.
     pub keep: usize,
 }
 
@@ -63,10 +63,11 @@ impl Every {
     }
 }
 
-/// An interval of time that is a smaller part of dt is a slip. Above it whole intervals are counted exactly: 2³² steps have fewer than 2⁵³.
+/// The smallest interval of time, as a part of dt; a smaller one is a mistake. From here on whole intervals are counted exactly: 2³² steps
+/// have fewer than 2⁵³.
 const LEAST: f64 = 1e-6;
 
-/// Reads the section of a scene of these steps.
+/// Reads the section of a scene with steps of `dt`.
 pub(super) fn read(table: Option<&Table<'_>>, dt: f64, report: &mut Report) -> Checkpoints {
     let settings = table.map_or_else(|| Settings::defaults(KEYS), |table| table.settings(KEYS, OWN, report));
     let mut every = DEFAULT;

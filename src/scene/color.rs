@@ -5,7 +5,7 @@ use crate::settings::Kind;
 use super::report::{Fault, Report, nearest, shorten};
 use super::tree::{Data, Node};
 
-/// The sixteen basic colours of CSS and a few that pictures of particles like.
+/// The sixteen basic colours of CSS, and a few for pictures of particles.
 const NAMED: &[(&str, [u8; 3])] = &[
     ("black", [0x00, 0x00, 0x00]),
     ("silver", [0xc0, 0xc0, 0xc0]),
@@ -33,7 +33,7 @@ const NAMED: &[(&str, [u8; 3])] = &[
     ("skyblue", [0x87, 0xce, 0xeb]),
 ];
 
-/// Reads `"#ffcc88"`, `"#fc8"` or a name; red, green and blue come back in sRGB.
+/// Reads `"#ffcc88"`, `"#fc8"` or a name; returns red, green and blue in sRGB.
 pub(super) fn read(node: &Node, key: &str, report: &mut Report) -> Option<[u8; 3]> {
     let Data::Text(text) = &node.data else { return super::value::refuse(node, key, &Kind::Color.wanted(), report) };
     let hex = known(text);

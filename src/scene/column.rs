@@ -13,7 +13,7 @@ use super::value;
 use super::walk::Table;
 
 pub(super) const OWN: &[&str] = &["name", "unit", "initial", "rate"];
-/// What a scene may say of a column beside its name, unit, initial value and rate.
+/// The keys of a column in addition to its name, unit, initial value and rate.
 pub const COLUMN_KEYS: &[Key] = &[
     Key::new(
         "kind",
@@ -83,12 +83,12 @@ fn one(table: &Table<'_>, out: &mut Writer, report: &mut Report) -> Option<Colum
 /// All columns of a scene: those of its forces, and those that it declares.
 pub(super) fn all(forces: &[Box<dyn Component>], declared: &[(Column, Place)], report: &mut Report) -> Columns {
     let of_forces: Vec<Column> = forces.iter().flat_map(|force| force.columns()).collect();
-    // What is wrong with a force by itself is reported where it is built.
+    // Faults of a force by itself are reported where it is built.
     let mut known = Columns::with(of_forces.clone()).unwrap_or_default();
     let mut all = of_forces;
     for (column, place) in declared {
         all.push(column.clone());
-        // A rate may be declared later.
+        // A rate may be declared after its column.
         match Columns::with(all.iter().map(|column| Column { rate: None, ..column.clone() })) {
             Ok(columns) => known = columns,
             Err(why) => {
@@ -113,7 +113,7 @@ pub(super) fn givable(columns: &Columns) -> Vec<&Column> {
     columns.state().filter(|column| base.get(&column.name).is_none() && column.shape == Shape::Particle).collect()
 }
 
-/// A value of a kind; one that is no vector has its number first.
+/// A value of a kind; a value other than a vector is in the first number.
 pub(super) fn given(node: &Node, key: &str, kind: Kind, report: &mut Report) -> Option<[f64; 4]> {
     use settings::Kind as Wanted;
     match kind {
@@ -156,8 +156,8 @@ pub(super) fn shown(kind: Kind, [x, y, z, w]: [f64; 4]) -> String {
     }
 }
 
-/// Gives the particles of a table the columns that it has keys for, but for `taken` keys, which mean something else there; and says
-/// which columns that must be given are not.
+/// Sets the columns of particles for which a table has keys, except `taken` keys, which have another meaning there; and reports required
+/// columns that are missing.
 pub(super) fn give(
     table: &Table<'_>,
     (columns, taken): (&[&Column], &[Key]),
@@ -179,7 +179,7 @@ pub(super) fn give(
     }
 }
 
-/// Values that bodies are given one by one.
+/// Values of columns that bodies give one by one.
 pub(super) struct Bodies<'a> {
     columns: &'a [&'a Column],
     given: Vec<Array>,
@@ -187,14 +187,14 @@ pub(super) struct Bodies<'a> {
 }
 
 impl<'a> Bodies<'a> {
-    /// None yet, of bodies of a list.
+    /// No values yet, for a list of bodies.
     pub(super) fn new(columns: &'a [&'a Column], list: &[Node]) -> Self {
         let given = columns.iter().map(|column| column.kind.filled([0.0; 4], 0)).collect();
         let has = |node: &Node, column: &Column| matches!(&node.data, Data::Table(entries) if entries.iter().any(|e| e.key == column.name));
         let any = columns.iter().map(|column| list.iter().any(|node| has(node, column))).collect();
         Self { columns, given, any }
     }
-    /// Reads those of one body, and gives them as TOML.
+    /// Reads those of one body, and returns them as TOML.
     pub(super) fn read(&mut self, table: &Table<'_>, report: &mut Report) -> String {
         let mut text = String::new();
         for ((column, list), any) in self.columns.iter().zip(&mut self.given).zip(&self.any) {
@@ -210,7 +210,7 @@ impl<'a> Bodies<'a> {
         }
         text
     }
-    /// Gives them to the particles.
+    /// Sets them in the particles.
     pub(super) fn give(self, particles: &mut State) {
         for ((column, values), any) in self.columns.iter().zip(self.given).zip(self.any) {
             if any {

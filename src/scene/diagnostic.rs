@@ -2,42 +2,42 @@
 
 use std::fmt;
 
-/// Where a fault is mended.
+/// The place where a fault must be corrected.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Mended {
     /// In the scene, or in an override of it.
     InScene,
-    /// In a file that the scene names: it is missing, or what it holds is wrong.
+    /// In a file that the scene names: it is missing, or its contents are invalid.
     InInput,
 }
 
 /// One fault.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Diagnostic {
-    /// Where it is mended.
+    /// The place where it must be corrected.
     pub mended: Mended,
-    /// What is wrong, in one line.
+    /// The fault, in one line.
     pub message: String,
-    /// The scene it is in; `None` for an override from the command line.
+    /// The scene that contains it; `None` for an override from the command line.
     pub file: Option<String>,
-    /// The line it is in; `None` when it is in no line, as when a whole section is missing.
+    /// The line that contains it; `None` if there is none, as when a whole section is missing.
     pub excerpt: Option<Excerpt>,
-    /// More lines: what is known, what would help.
+    /// More lines: known names, and advice.
     pub notes: Vec<String>,
 }
 
-/// A line of a scene and the part of it that is meant.
+/// A line of a scene, and the marked part of it.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Excerpt {
     /// Line and column, both counted from 1; `None` on the command line.
     pub position: Option<(usize, usize)>,
-    /// The line, shortened when it is long, with tabs as spaces and without what a terminal would act upon.
+    /// The line, shortened if it is long, with tabs as spaces and without control characters.
     pub text: String,
-    /// How many columns of `text` stand before the part that is meant.
+    /// The number of columns of `text` before the marked part.
     pub before: usize,
-    /// How many columns the part has; at least one.
+    /// The number of columns of that part; at least one.
     pub under: usize,
-    /// What stands beside the carets; may be empty.
+    /// The text beside the carets; may be empty.
     pub label: String,
 }
 
@@ -48,20 +48,20 @@ pub struct Diagnostics {
     pub scene: String,
     /// The faults; the first hundred when there are more.
     pub list: Vec<Diagnostic>,
-    /// How many there are.
+    /// The total number.
     pub total: usize,
-    /// How many of them are mended in the scene.
+    /// The number of faults to be corrected in the scene.
     pub(super) in_scene: usize,
 }
 
 impl Diagnostics {
-    /// One fault that has no line: the scene cannot be read at all.
+    /// One fault without a line: the scene cannot be read at all.
     pub(super) fn alone(scene: &str, message: String, notes: Vec<String>) -> Self {
         let file = Some(scene.to_owned());
         let only = Diagnostic { mended: Mended::InScene, message, file, excerpt: None, notes };
         Self { scene: scene.to_owned(), list: vec![only], total: 1, in_scene: 1 }
     }
-    /// The exit code of the command `motes`: 4 when every fault is mended in an input file, else 3.
+    /// The exit code of the command `motes`: 4 when every fault must be corrected in an input file, otherwise 3.
     #[must_use]
     pub fn exit_code(&self) -> u8 {
         if self.in_scene == 0 { 4 } else { 3 }

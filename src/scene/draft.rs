@@ -9,7 +9,7 @@ use super::resolved::Writer;
 use super::walk::Table;
 use super::{bounds, column, fluid, force, motion, output, particles, simulation, solver};
 
-/// Above so many particles and links a scene is checked first: creating them takes seconds and memory.
+/// A scene with more particles and links than this is checked first: creating them takes seconds and memory.
 const LARGE: f64 = 300_000.0;
 
 /// Whether a scene is large. If so, reports errors that do not depend on its particles, and lack of memory; more
@@ -37,7 +37,7 @@ pub(super) fn read(sections: &[(&'static str, Table<'_>)], files: &Files, most: 
     let faults = report.len();
     let chosen: Vec<_> = all("force").filter_map(|table| force::read(table, (files, &motions), report)).collect();
     let declared = column::read(all("column"), &mut out, report);
-    // An invalid force may declare columns that others name.
+    // An invalid force may declare columns that others use.
     if report.len() == faults {
         let forces: Vec<_> = chosen.into_iter().map(force::Chosen::build).collect();
         let known = column::all(&forces, &declared, report);
@@ -50,7 +50,7 @@ pub(super) fn read(sections: &[(&'static str, Table<'_>)], files: &Files, most: 
         table.settings(render::KEYS, &[], report);
     }
     let largest = amounts.iter().max_by(|a, b| a.1.bytes().total_cmp(&b.1.bytes()));
-    // No memory is reserved for what is refused by its number.
+    // No memory is reserved for a number of particles that is refused.
     if whole.particles <= f64::from(most)
         && let (Some((table, _)), Err(why)) = (largest, whole.fits())
     {

@@ -22,7 +22,7 @@ const SPECIES: Key = Key::new("species", Kind::Whole, Value::Number(0.0), "the s
 /// The keys of an emitter in a scene.
 pub use crate::shapes::emitter::KEYS as EMITTER_KEYS;
 
-/// One entry, read: how many particles, and their colour.
+/// An entry that was read: the number of its particles, and their colour.
 pub(super) struct Emitted {
     pub(super) count: u32,
     pub(super) color: Option<[u8; 3]>,

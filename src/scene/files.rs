@@ -1,4 +1,4 @@
-//! The files that a scene names: where they are, and that they are the scene's to name.
+//! The files that a scene names: their location, and whether the scene may read them.
 
 use std::cell::RefCell;
 use std::fs;
@@ -12,9 +12,9 @@ const LONGEST_SHADER: u64 = 1 << 20;
 /// The longest mesh \[bytes\].
 const LONGEST_MESH: u64 = 1 << 30;
 
-/// Where files are sought.
+/// The folders in which files are searched.
 pub(super) struct Files {
-    /// Those that were found, from the root.
+    /// The files that were found, by absolute paths.
     read: RefCell<Vec<PathBuf>>,
     folder: Option<PathBuf>,
     embedded: &'static [(&'static str, &'static str)],
@@ -25,7 +25,7 @@ pub(super) struct Files {
 pub(super) enum Located {
     /// On the disk; with the name that the resolved scene gives it.
     Disk { path: PathBuf, name: String },
-    /// In the program.
+    /// Built into the program.
     Embedded { name: &'static str, text: &'static str },
 }
 
@@ -34,13 +34,13 @@ impl Files {
         Self { read: RefCell::default(), folder: opened.folder.clone(), embedded: opened.embedded, allow_outside }
     }
 
-    /// Finds the file that stands at `place` as the value of `key`.
+    /// Finds the file that is given at `place` as the value of `key`.
     pub(super) fn locate(&self, key: &str, name: &str, place: &Place) -> Result<Located, Fault> {
         let shown = shorten(name);
         if let Some(&(name, text)) = self.embedded.iter().find(|(n, _)| *n == name) {
             return Ok(Located::Embedded { name, text });
         }
-        // A built-in scene with an override is the user's own: it may name files from where the program was started.
+        // A built-in scene with an override is the user's own: it may name files in the current folder.
         let folder = self.folder.as_deref().unwrap_or(Path::new("."));
         let path = folder.join(name);
         if !self.allow_outside && !is_inside(&path, folder) {
@@ -61,7 +61,7 @@ impl Files {
             let what = if meta.is_dir() { "a folder" } else { "not a regular file" };
             return Err(Fault::at(place, format!("{shown} is {what}")).in_input());
         }
-        // It is not known here where the resolved scene will be written, so it names files from the root.
+        // The folder of the resolved scene is not known here, so it names files by absolute paths.
         let absolute = fs::canonicalize(&path)
             .map_err(|why| Fault::at(place, format!("cannot read {shown}: {why}")).in_input())?;
         let Some(name) = absolute.to_str().map(str::to_owned) else {
@@ -74,14 +74,14 @@ impl Files {
         self.read.borrow_mut().push(absolute);
         Ok(Located::Disk { path, name })
     }
-    /// The files that were found, from the root.
+    /// The files that were found, by absolute paths.
     pub(super) fn found(self) -> Vec<PathBuf> {
         self.read.into_inner()
     }
 }
 
 impl Located {
-    /// What the resolved scene calls it.
+    /// Its name in the resolved scene.
     pub(super) fn name(&self) -> &str {
         match self {
             Self::Disk { name, .. } => name,
@@ -119,19 +119,19 @@ impl Located {
     }
 }
 
-/// Whether a path stays in a folder, by its words and by where its links lead. Of a path that does not exist the part that
-/// does counts: nothing is revealed of what there is elsewhere.
+/// Whether a path stays in a folder, by its components and by the targets of its links. Of a path that does not exist only the existing
+/// part counts, so that nothing is revealed about other folders.
 fn is_inside(path: &Path, folder: &Path) -> bool {
     let (Ok(by_words), Ok(home)) = (std::path::absolute(path), std::path::absolute(folder)) else { return false };
     let by_words = plain(&by_words);
     let Ok(folder) = fs::canonicalize(folder) else { return by_words.starts_with(plain(&home)) };
     let there = by_words.ancestors().find_map(|part| fs::canonicalize(part).ok());
-    // Words alone hide a link that `..` goes back through.
+    // Components alone do not show a link that `..` goes back through.
     let real = path.ancestors().find_map(|part| fs::canonicalize(part).ok());
     [there, real].into_iter().flatten().all(|part| part.starts_with(&folder))
 }
 
-/// A path with its `..` carried out.
+/// A path with its `..` resolved.
 fn plain(path: &Path) -> PathBuf {
     let mut out = PathBuf::new();
     for part in path.components() {

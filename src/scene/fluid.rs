@@ -40,7 +40,7 @@ pub(super) fn completed(table: &Table<'_>, keys: &[Key], said: &[Entry]) -> Vec<
     table.entries.iter().chain(said.iter().filter(left_out)).cloned().collect()
 }
 
-/// Where shapes and emitters contradict the first force `fluid`.
+/// The contradictions between shapes or emitters and the first force `fluid`.
 pub(super) fn contradictions<'a>(sections: &'a [(&'static str, Table<'a>)]) -> Vec<String> {
     let all = |name: &'static str| sections.iter().filter(move |(n, _)| *n == name).map(|(_, table)| table);
     let Some((force, keys)) = all("force").find_map(|table| Some((table, force_keys(table)?))) else {
@@ -71,7 +71,7 @@ fn given(table: &Table<'_>, keys: &[Key], name: &str) -> Option<Value> {
     value::read(&table.get(name)?.node, key.name, key.kind, &mut Report::default())
 }
 
-/// Reports, of a force that makes a fluid, a fluid of nothing or beside another: `earlier` says whether there is one already.
+/// Reports a force that makes a fluid without particles, or a second fluid: `earlier`: there is one already.
 pub(super) fn check(table: &Table<'_>, particles: &State, earlier: bool, report: &mut Report) {
     if earlier {
         report.push(Fault::at(table.place, "there are two fluids of all particles: remove one of them"));

@@ -80,8 +80,8 @@ fn read_own(table: &Table<'_>, wgsl: &Entry, files: &Files, report: &mut Report)
     }
 }
 
-/// Reports settings of a force that are invalid together, or in such a box, at the key that is at fault, or else at its table. Returns
-/// whether they are valid.
+/// Reports settings of a force that are invalid together, or in such a box, at the key concerned, or else at its table. Returns whether
+/// they are valid.
 pub(super) fn agrees(table: &Table<'_>, force: &dyn Component, bounds: &Bounds, report: &mut Report) -> bool {
     let fault = match force.check(bounds) {
         Ok(()) => return true,
@@ -94,14 +94,14 @@ pub(super) fn agrees(table: &Table<'_>, force: &dyn Component, bounds: &Bounds, 
     false
 }
 
-/// Which pairs are evaluated, with the cut-off radius or the number of neighbours that this needs.
+/// The visit, with the cut-off radius or the number of neighbours that it needs.
 fn over(table: &Table<'_>, report: &mut Report) -> Option<Over> {
     let Some(entry) = table.get("over") else {
         report.push(table.lacks("over", &Kind::Choice(Over::NAMES).wanted(), "which pairs are evaluated"));
         return None;
     };
     let word = walk::choice(entry, "over", Over::NAMES, report)?;
-    // Where a range is given, it is the faster of two searches; else a tree, or all pairs.
+    // With a range, `auto` is the faster of two searches; otherwise a tree, or all pairs.
     let faster = word == "auto" && table.get("range").is_some() && table.get("theta").is_none();
     let wanted = match word {
         "within" | "near" | "list" => Some("range"),
@@ -162,7 +162,7 @@ fn over(table: &Table<'_>, report: &mut Report) -> Option<Over> {
     }
 }
 
-/// A number that may be left out; nothing where it is none.
+/// An optional number; `None` if it is invalid.
 #[expect(clippy::option_option, reason = "a number that is wrong is not one that is left out")]
 fn optional(table: &Table<'_>, key: &str, kind: Kind, report: &mut Report) -> Option<Option<f64>> {
     match table.get(key) {
@@ -269,7 +269,7 @@ impl Chosen {
     }
 }
 
-/// Refuses adaptive steps that no force limits, or that a force does not allow.
+/// Refuses adaptive steps where no force limits them, or a force does not allow them.
 pub(super) fn adapted(forces: &[Box<dyn Component>], place: &Place, report: &mut Report) {
     if let Some(why) = forces.iter().find_map(|force| force.properties().fixed_step) {
         report.push(Fault::at(place, "steps cannot be adaptive").label(format!("{why}: leave this out")));

@@ -1,4 +1,4 @@
-//! Which particles of a `[[particles]]` are held, and by what.
+//! The fixed and kinematic particles of a `[[particles]]`.
 
 use std::collections::BTreeSet;
 
@@ -14,8 +14,8 @@ use super::walk::{self, Table};
 
 pub(super) const OWN: &[&str] = &["fixed", "motion"];
 
-/// Holds the particles that the entry's `fixed` names, beside those that its shape or its bodies hold already; `motion`
-/// leads all of them.
+/// Fixes the particles given by the entry's `fixed`, in addition to those that its shape or its bodies fix already; all of them follow
+/// `motion`, if it is given.
 pub(super) fn read(
     table: &Table<'_>,
     motions: &[Motion],
@@ -40,7 +40,7 @@ pub(super) fn read(
     out.text("motion", name);
 }
 
-/// The motion that an entry names by its key `motion`; `None` for no name, or for one that there is not.
+/// The motion given by the key `motion` of an entry; `None` if there is no name, or no such motion.
 pub(super) fn motion<'a>(table: &Table<'_>, names: &[&'a str], report: &mut Report) -> Option<&'a str> {
     let entry = table.get("motion")?;
     if let (Data::Text(text), true) = (&entry.node.data, names.is_empty())

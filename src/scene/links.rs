@@ -32,7 +32,7 @@ pub const LINKS_KEYS: &[Key] = &[
 /// The file, or the pairs of ids.
 pub(super) const OWN: &[&str] = &["file", "pairs"];
 
-/// Reads a section about particles that are there already, and adds its links to theirs.
+/// Reads a section for existing particles, and adds its links to theirs.
 pub(super) fn read(
     table: &Table<'_>,
     particles: &mut State,
@@ -125,7 +125,7 @@ fn from_pairs(
     Some(links)
 }
 
-/// The id of a particle that there is.
+/// The id of an existing particle.
 fn id(node: &Node, count: usize, report: &mut Report) -> Option<u32> {
     let number = value::number(node, "pairs", Kind::Whole, "the id of a particle", report)?;
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "checked against the count")]

@@ -1,4 +1,4 @@
-//! `[[measure]]`: tables that a run writes beside its states.
+//! `[[measure]]`: tables that a run writes in addition to its states.
 
 use crate::error::Error;
 use crate::measure::{MEASURES, Measure, measure};
@@ -15,9 +15,9 @@ pub(super) const OWN: &[&str] = &["kind", "every"];
 /// A measure as the scene gives it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Chosen {
-    /// What is measured.
+    /// The measure.
     pub measure: &'static Measure,
-    /// How.
+    /// Its settings.
     pub settings: Settings,
     /// Steps of dt from one row to the next; `None`: one for each output.
     pub every: Option<u64>,
@@ -49,7 +49,7 @@ pub(super) fn read(table: &Table<'_>, dt: f64, out: &mut Writer, report: &mut Re
     Some(Chosen { measure, settings, every })
 }
 
-/// Reports measures that a run of the scene cannot take, each at the key that says it, or else at its table.
+/// Reports measures that a run of the scene cannot take, each at the key concerned, or else at its table.
 pub(super) fn check(scene: &mut Scene, tables: &[&Table<'_>], report: &mut Report) {
     let setup = scene.setup();
     for (one, table) in scene.measures.iter().zip(tables) {

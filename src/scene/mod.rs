@@ -85,21 +85,21 @@ pub struct Scene {
     pub about: String,
     /// The length of a step \[time\]; positive.
     pub dt: f64,
-    /// The step that the scene gives, where `dt` is made smaller so that an integer of steps ends at `until` \[time\].
+    /// The step given in the scene, if `dt` was reduced so that an integer of steps ends at `until` \[time\].
     pub given_dt: Option<f64>,
-    /// How many steps; at least one. Where they are adaptive, of the longest: others come in between.
+    /// The number of steps; at least one. With adaptive steps, the number of the longest ones: others lie in between.
     pub steps: u64,
-    /// When it ends \[time\].
+    /// The end time \[time\].
     pub until: f64,
-    /// How long steps are, where they are adaptive.
+    /// The adaptive time step, if steps are adaptive.
     pub adaptive_step: Option<AdaptiveStep>,
     /// The integrator.
     pub integrator: &'static integrators::Entry,
     /// The settings of the integrator.
     pub integrator_settings: Settings,
-    /// How well implicit integrators solve their equations.
+    /// The tolerances of implicit integrators.
     pub solver: Solver,
-    /// Where particles may be.
+    /// The box and its boundaries.
     pub bounds: Bounds,
     /// All particles, in the order of the scene; at least one.
     pub particles: State,
@@ -108,19 +108,19 @@ pub struct Scene {
     pub groups: Vec<Group>,
     /// The forces, in the order of the scene; there may be none.
     pub forces: Vec<Box<dyn Component>>,
-    /// What is written.
+    /// The output.
     pub output: Output,
-    /// What is measured beside what is usual.
+    /// The measures in addition to the default ones.
     pub measures: Vec<Chosen>,
-    /// When a run keeps what it needs to continue.
+    /// The checkpoints.
     pub checkpoint: Checkpoints,
-    /// How pictures are made: the values of [`render::KEYS`].
+    /// The settings of pictures: the values of [`render::KEYS`].
     pub picture: Settings,
-    /// The scene as TOML with every default filled in and every override applied. Loading it gives the same scene again.
-    /// It names files by absolute paths, so from elsewhere it is loaded with [`Options::allow_outside`]; see
-    /// [`Scene::resolved_in`]. More comments go to its end: the first ones are the scene's own.
+    /// The scene as TOML with every default filled in and every override applied. Loading it gives the same scene again. It names files by
+    /// absolute paths, so that elsewhere it must be loaded with [`Options::allow_outside`]; see [`Scene::resolved_in`]. Further comments
+    /// are added at its end: the first ones are the scene's own.
     pub resolved: String,
-    /// The files that were read, from the root: the scene's own, where it is one, and those that it names.
+    /// The files that were read, by absolute paths: the scene file, if there is one, and those that it names.
     pub files: Vec<PathBuf>,
     /// Remarks on a valid scene, for instance that `until` is not a whole number of steps.
     pub remarks: Vec<String>,
@@ -131,7 +131,7 @@ pub struct Scene {
 pub struct Group {
     /// Their ids.
     pub ids: Range<u32>,
-    /// Red, green and blue in sRGB, when the scene says so.
+    /// Red, green and blue in sRGB, if given in the scene.
     pub color: Option<[u8; 3]>,
 }
 
@@ -140,7 +140,7 @@ pub struct Group {
 pub struct Options {
     /// Whether it may name files outside of its own folder.
     pub allow_outside: bool,
-    /// How many particles it may have: a guard against a slip that fills the memory.
+    /// The maximum number of particles, as a protection against mistakes that fill the memory.
     pub most_particles: u32,
 }
 
@@ -152,12 +152,12 @@ impl Default for Options {
 }
 
 impl Scene {
-    /// The integrator, with what the scene says to it.
+    /// The integrator, with the settings of the scene.
     #[must_use]
     pub fn integrator(&self) -> Box<dyn integrators::Integrator> {
         (self.integrator.build)(&self.integrator_settings)
     }
-    /// What a simulation of it is made of. Its particles and forces go there; the scene is left without.
+    /// The setup of a simulation. It takes the particles and forces; the scene is left without them.
     pub fn setup(&mut self) -> Setup {
         Setup {
             state: std::mem::take(&mut self.particles),
@@ -171,8 +171,8 @@ impl Scene {
             solver: self.solver,
         }
     }
-    /// Reads a scene. Each override is `key=value`: `simulation.dt=0.01`, `particles.0.count=100`, `force.0.g=2`; the value
-    /// is TOML, or a text without its quotes. Files that an override names are sought where the scene's are.
+    /// Reads a scene. Each override is `key=value`: `simulation.dt=0.01`, `particles.0.count=100`, `force.0.g=2`; the value is TOML, or a
+    /// text without its quotes. Files that an override names are searched where the scene's are.
     ///
     /// # Errors
     /// All faults of the scene, of the overrides, and of the files that the scene names.
@@ -184,7 +184,7 @@ impl Scene {
         overrides::apply(&mut root, overrides, &mut report);
         let sections = walk::sections(&root, &mut report);
         let files = Files::new(&opened, options.allow_outside);
-        // Many particles are not made for a scene that is refused anyway.
+        // Many particles are not created for a scene that is refused anyway.
         let refused = draft::read(&sections, &files, options.most_particles, &mut report) && report.len() > 0;
         let scene = (!refused).then(|| read(&sections, &files, options, &mut report));
         let mut scene = match (report.finish(), scene) {
@@ -204,20 +204,19 @@ impl Scene {
         Ok(scene)
     }
 
-    /// [`Scene::resolved`] with the files that it reads in numbered folders beside it; and where each of them is.
+    /// [`Scene::resolved`] with the files that it reads in numbered folders beside it; and the paths of these files.
     #[must_use]
     pub fn packed(&self) -> (String, Vec<(String, PathBuf)>) {
         resolved::packed(&self.resolved, &self.files)
     }
-    /// [`Scene::resolved`] for a file in a folder that exists: it names files by their way from there, so that it tells nothing
-    /// of where both are.
+    /// [`Scene::resolved`] for a file in an existing folder: it names files by relative paths, so that it does not reveal where both are.
     #[must_use]
     pub fn resolved_in(&self, folder: &Path) -> String {
         resolved::nearby(&self.resolved, &self.files, folder)
     }
 }
 
-/// Reads all sections. With faults in the report the result is not to be used.
+/// Reads all sections. If the report has faults, the result must not be used.
 fn read(sections: &[(&'static str, Table<'_>)], files: &Files, options: &Options, report: &mut Report) -> Scene {
     let one = |name: &str| sections.iter().find(|(n, _)| *n == name).map(|(_, table)| table);
     let all = |name: &'static str| sections.iter().filter(move |(n, _)| *n == name).map(|(_, table)| table);
@@ -312,7 +311,7 @@ fn read(sections: &[(&'static str, Table<'_>)], files: &Files, options: &Options
     }
     out.0 += &said_of_forces.0;
 
-    // The forces must know whether particles are spawned or removed.
+    // The forces depend on whether particles are spawned or removed.
     let integrator = simulation.made();
     if let (Some(first), Err(why)) =
         (all("emitter").chain(all("drain")).next(), crate::simulation::serves(&particles, &forces, integrator.as_ref()))
@@ -370,7 +369,7 @@ fn read(sections: &[(&'static str, Table<'_>)], files: &Files, options: &Options
     scene
 }
 
-/// How many particles, as an id. `most_particles` keeps it within 32 bits.
+/// The number of particles, as an id. `most_particles` limits it to 32 bits.
 fn ids(particles: &State) -> u32 {
     u32::try_from(particles.len()).unwrap_or(u32::MAX)
 }

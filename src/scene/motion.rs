@@ -1,4 +1,4 @@
-//! `[[motion]]`: what leads fixed particles and solids, by keyframes.
+//! `[[motion]]`: motions of kinematic particles and obstacles, by keyframes.
 
 use std::fmt::Write as _;
 
@@ -28,7 +28,7 @@ const KEYFRAME: &[Key] = &[
 ];
 const LIST: &str = "a list of tables, as in [{ time = 0 }, { time = 2, shift = [1, 0, 0] }]";
 
-/// Reads a motion and writes it out. One that is at fault still has its name, so that what names it does not report that too.
+/// Reads a motion and writes it out. An invalid one keeps its name, so that references to it are not reported too.
 pub(super) fn read(
     table: &Table<'_>,
     earlier: &[Motion],

@@ -11,7 +11,7 @@ use super::tree::{Data, Entry};
 use super::value;
 use super::walk::{self, Table};
 
-/// The most files of a set.
+/// The maximum number of files of a set.
 const MOST: f64 = 4096.0;
 
 /// The keys of the section, beside those that it reads by itself.
@@ -31,28 +31,28 @@ pub(super) const KEYS: &[Key] = &[
 ];
 pub(super) const OWN: &[&str] = &["every", "formats", "columns", "frames"];
 
-/// What a run writes.
+/// The output of a run.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Output {
     /// A snapshot is written each time that this many steps are done; at least one.
     pub every: u64,
-    /// In which formats, each once; none at all leaves only the table of energies, and pictures.
+    /// The formats, each once; without any, only the table of energies and pictures are written.
     pub formats: Vec<&'static Format>,
     /// Whether a picture is drawn with each.
     pub pictures: bool,
-    /// How many pictures of a film, evenly spaced over the run; zero for none, and one more than the steps at most.
+    /// The number of pictures of a film, evenly spaced over the run; zero for no film, and at most one more than the steps.
     pub frames: u64,
-    /// Columns that snapshots have beside those of the state: what laws compute.
+    /// Columns of snapshots in addition to those of the state: computed by laws.
     pub columns: Vec<String>,
-    /// Whether states are compressed, in formats that can be.
+    /// Whether states are compressed, in formats that support it.
     pub compress: bool,
-    /// Into how many files a state is divided, in formats that can be; at least one.
+    /// The number of files that a state is divided into, in formats that support it; at least one.
     pub files: u32,
 }
 
 const FORMS: &str = "a whole number of steps, or time of the scene as in \"0.5 time\"";
 
-/// Steps from one output to the next, of a number of them or of time; the clock on the wall would write other files each time.
+/// Steps between two outputs, given as a number or as a time; with wall-clock time the files would differ each time.
 pub(super) fn interval(entry: &Entry, dt: f64, report: &mut Report) -> Option<u64> {
     let Data::Text(text) = &entry.node.data else { return walk::whole_from_one(entry, report) };
     let Some(Every::Time(time)) = Every::parse(text) else {
@@ -63,7 +63,7 @@ pub(super) fn interval(entry: &Entry, dt: f64, report: &mut Report) -> Option<u6
         return None;
     };
     let (steps, whole) = (time / dt, (time / dt).round());
-    // A quotient of two decimal numbers is some roundings off.
+    // A quotient of two decimal numbers has a few rounding errors.
     if (1.0..=LARGEST_WHOLE).contains(&whole) && (steps - whole).abs() <= 1e-12 * whole {
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "whole, from one to 2^53")]
         return Some(whole as u64);
@@ -78,10 +78,10 @@ fn plain(x: f64) -> String {
     format!("{}", format!("{x:.5e}").parse().unwrap_or(x))
 }
 
-/// The scene's word for pictures, which stand among the formats.
+/// The name of pictures in scenes, listed among the formats.
 const PICTURES: &str = "png";
 
-/// The words that `formats` takes: formats that states can be written in, and pictures.
+/// The values of `formats`: formats that states can be written in, and pictures.
 #[must_use]
 fn words() -> Vec<&'static str> {
     let mut words: Vec<_> = writable().map(|format| format.name).collect();

@@ -1,15 +1,15 @@
-//! `--set key=value`: values from the command line, put into the tree before it is checked, so that they meet the same checks.
+//! `--set key=value`: values from the command line, inserted into the tree before it is checked, so that the same checks apply.
 
 use super::report::{Fault, Place, Report, shorten};
 use super::sections::SECTIONS;
 use super::tree::{self, Data, Entry, Node};
 
-/// Keys of which one replaces another: setting one from the command line takes away the others that the scene gives.
+/// Keys that exclude one another: setting one from the command line removes the others of the scene.
 const ALTERNATIVES: &[&[&str]] = &[&["steps", "until"], &["file", "shape", "bodies"], &["kind", "wgsl"]];
 /// The longest path; `particles.0.bodies.0.position.0` has 6 parts.
 const LONGEST_PATH: usize = 8;
 
-/// Puts the overrides into the tree, in their order.
+/// Inserts the overrides into the tree, in their order.
 pub(super) fn apply(root: &mut Vec<Entry>, overrides: &[String], report: &mut Report) {
     for body in overrides {
         let text = report.add(None, body);
@@ -65,7 +65,7 @@ fn parts(path: &str, text: usize) -> Result<Vec<Part<'_>>, Fault> {
     Ok(list)
 }
 
-/// A TOML value; or else, when it does not begin like one, a text without its quotes.
+/// A TOML value; or, if it does not begin like one, a text without its quotes.
 fn parse(value: &str, text: usize, at: usize) -> Result<Node, Fault> {
     let start = at + value.len() - value.trim_start().len();
     let value = value.trim();

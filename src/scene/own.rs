@@ -5,7 +5,7 @@
 pub struct Own {
     /// The name in the scene.
     pub name: &'static str,
-    /// What holds where it is left out, in words.
+    /// The default, in words.
     pub default: &'static str,
     /// One line: what it means, and its unit.
     pub about: &'static str,

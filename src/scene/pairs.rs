@@ -12,7 +12,7 @@ use super::tree::{Data, Node};
 use super::value;
 use super::walk::Table;
 
-/// A table of numbers by declared keys.
+/// A table of numbers with declared keys.
 pub(super) fn read(node: &Node, key: &str, keys: &[Key], report: &mut Report) -> Option<Vec<Pair>> {
     let values = |table: &Table<'_>, report: &mut Report| {
         let settings = table.settings(keys, &["species"], report);
@@ -22,7 +22,7 @@ pub(super) fn read(node: &Node, key: &str, keys: &[Key], report: &mut Report) ->
     Some(rows.into_iter().map(|Row { species, values }| Pair { species, values }).collect())
 }
 
-/// A table of a user's law, whose shader says what it wants.
+/// A table of a user's law, whose members are defined by its shader.
 pub(super) fn of_any_names(node: &Node, report: &mut Report) -> Option<PairTable> {
     let values = |table: &Table<'_>, report: &mut Report| {
         let others = table.entries.iter().filter(|entry| entry.key != "species");
@@ -32,7 +32,7 @@ pub(super) fn of_any_names(node: &Node, report: &mut Report) -> Option<PairTable
     Some(PairTable { rows: rows.into_iter().map(|Row { species, values }| PairRow { species, values }).collect() })
 }
 
-/// A pair of species, and what is said of it.
+/// A pair of species, and its values.
 struct Row<T> {
     species: [u32; 2],
     values: Vec<(String, T)>,
@@ -83,7 +83,7 @@ fn species(table: &Table<'_>, report: &mut Report) -> Option<[u32; 2]> {
     Some([a?, b?])
 }
 
-/// Reports every pair of the species that particles have for which a force has no parameters.
+/// Reports every pair of existing species for which a force has no parameters.
 pub(super) fn complete(table: &Table<'_>, force: &dyn Component, species: &[u32], report: &mut Report) {
     let place = table.get("pairs").map_or(table.place, |entry| &entry.place);
     for pairs in force.laws().into_iter().filter_map(|law| law.pairs) {

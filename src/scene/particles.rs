@@ -1,4 +1,4 @@
-//! `[[particles]]`: from a file, from a generator, or written out.
+//! `[[particles]]`: from a file, from a generator, or listed in the scene.
 
 use std::fmt::Write;
 
@@ -23,14 +23,14 @@ use super::tree::{Data, Entry};
 use super::value;
 use super::walk::{self, Table};
 
-/// What any entry may say beside what it is of.
+/// The keys of any entry in addition to those of its source.
 const BESIDE: [&str; 4] = ["color", "species", held::OWN[0], held::OWN[1]];
-/// Where the particles of a file, or those written out, are put.
+/// The offsets of the particles of a file, or of listed ones.
 pub(super) const OFFSETS: &[Key] = &[
     Key::new("center", Kind::Vector, Value::Vector(DVec3::ZERO), "is added to every position [length]"),
     Key::new("velocity", Kind::Vector, Value::Vector(DVec3::ZERO), "is added to every velocity [length / time]"),
 ];
-/// What every entry may say.
+/// The keys of every entry.
 pub const EVERY: &[Key] = &[Key::new(
     "species",
     Kind::Whole,
@@ -45,16 +45,16 @@ const BODY: &[Key] = &[
     Key::new("fixed", Kind::Flag, Value::Flag(false), "whether it is fixed"),
 ];
 
-/// One entry, read.
+/// An entry that was read.
 pub(super) struct Block {
     pub(super) particles: State,
-    /// Its parts, as the picture tells them apart: how many particles, and their colour; the last has the rest.
+    /// Its parts in pictures: the number of particles of each, and their colour; the last one contains the rest.
     pub(super) parts: Vec<(u32, Option<[u8; 3]>)>,
-    /// The entry as the resolved scene has it.
+    /// The entry in the resolved scene.
     pub(super) resolved: String,
 }
 
-/// Reads an entry that may bring up to `room` particles.
+/// Reads an entry of at most `room` particles.
 pub(super) fn read(
     table: &Table<'_>,
     room: u32,
@@ -95,13 +95,13 @@ pub(super) fn read(
     });
     column::give(table, (columns, shape.map_or(OFFSETS, |shape| shape.keys)), &mut particles, &mut out, report);
     held::read(table, motions, &mut particles, &mut out, report);
-    // Parts that nothing distinguishes are one.
+    // Parts without colours of their own are one.
     if others.iter().all(|(_, own)| own.is_none()) {
         others.clear();
     }
     let first = particles.len() - others.iter().map(|(count, _)| *count as usize).sum::<usize>();
     let first = (u32::try_from(first).unwrap_or(u32::MAX), color);
-    // What has no colour of its own has that of the whole.
+    // Parts without a colour of their own have that of the entry.
     let others = others.into_iter().map(|(count, own)| (count, own.or(color)));
     let parts = std::iter::once(first).chain(others).collect();
     Some(Block { particles, parts, resolved: out.0 })
@@ -155,7 +155,7 @@ fn from_file(
     }
 }
 
-/// `parts` gets what follows on the shape's first part: how many particles each has, and its own colour.
+/// `parts` gets the parts after the shape's first one: the number of particles of each, and its own colour.
 fn from_shape(
     table: &Table<'_>,
     entry: &Entry,
@@ -204,7 +204,7 @@ fn from_shape(
     }
 }
 
-/// Puts what is in files into the settings that name them; gives those that name them, as the resolved scene does.
+/// Inserts the contents of files into the settings that name them; returns the settings with the names of the resolved scene.
 fn located(table: &Table<'_>, shape: &Shape, files: &Files, settings: &mut Settings, report: &mut Report) -> Settings {
     let mut shown = settings.clone();
     for key in shape.keys.iter().filter(|key| key.kind == Kind::File) {
@@ -222,7 +222,7 @@ fn located(table: &Table<'_>, shape: &Shape, files: &Files, settings: &mut Setti
     shown
 }
 
-/// How much an entry will make, by its settings; nothing of files, and of what is written out.
+/// The number of particles of an entry, by its settings; zero for files and listed particles.
 pub(super) fn amount(table: &Table<'_>, said: &[Entry], columns: &[&Column], report: &mut Report) -> Amount {
     let shape = |report: &mut Report| {
         let entry = table.one_of(&["file", "shape", "bodies"], report).filter(|entry| entry.key == "shape")?;
@@ -287,7 +287,7 @@ fn moved(mut particles: State, offsets: &Settings) -> State {
     particles
 }
 
-/// What files and generators promise, checked once for all of them.
+/// The checks that apply to files and generators alike.
 fn sound(particles: &State, room: u32, place: &Place) -> Result<(), Fault> {
     let count = particles.len();
     if count == 0 {

@@ -1,4 +1,4 @@
-//! The collector: every fault that a reader of the scene finds goes in here, with the place it was found at.
+//! The collector of all faults of a scene, each with its place.
 
 use std::collections::BTreeSet;
 use std::ops::Range;
@@ -9,12 +9,12 @@ pub(super) use crate::settings::{listed, nearest};
 
 use super::diagnostic::{Diagnostic, Diagnostics, Excerpt, Mended};
 
-/// How many faults are kept; the others are counted.
+/// The number of faults that are kept; the others are counted.
 const KEPT: usize = 100;
-/// How many columns of a long line are shown.
+/// The number of columns of a long line that are shown.
 const SHOWN: usize = 100;
 
-/// A stretch of one of the texts of a [`Report`]: the scene is text 0, the overrides follow.
+/// A range of one of the texts of a [`Report`]: the scene is text 0, the overrides follow.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) struct Place {
     pub(super) text: usize,
@@ -22,13 +22,13 @@ pub(super) struct Place {
 }
 
 impl Place {
-    /// The end of the scene, where what is missing as a whole would be.
+    /// The end of the scene, for parts that are missing as a whole.
     pub(super) fn end() -> Self {
         Self { text: 0, span: usize::MAX..usize::MAX }
     }
 }
 
-/// One fault while it is written.
+/// A fault under construction.
 #[derive(Debug)]
 pub(super) struct Fault {
     place: Place,
@@ -50,11 +50,11 @@ impl Fault {
             missing: false,
         }
     }
-    /// Something is not there. Kept back when the text does not parse, for then it may well be there.
+    /// A missing part. It is not reported if the text does not parse, since it may exist then.
     pub(super) fn missing(place: &Place, message: impl Into<String>) -> Self {
         Self { missing: true, ..Self::at(place, message) }
     }
-    /// What stands beside the carets.
+    /// The text beside the carets.
     pub(super) fn label(mut self, label: impl Into<String>) -> Self {
         self.label = label.into();
         self
@@ -64,7 +64,7 @@ impl Fault {
         self.notes.push(note.into());
         self
     }
-    /// The file that the scene names is at fault, not the scene.
+    /// The file that the scene names is at fault, not the scene itself.
     pub(super) fn in_input(mut self) -> Self {
         self.mended = Mended::InInput;
         self
@@ -72,7 +72,7 @@ impl Fault {
 }
 
 struct Text {
-    /// The file's name, or nothing for an override.
+    /// The file's name, or `None` for an override.
     name: Option<String>,
     body: String,
     lines: Vec<usize>,
@@ -87,27 +87,27 @@ pub(super) struct Report {
 }
 
 impl Report {
-    /// Takes in the scene's text (first) or an override (`name` is `None`) and gives its number.
+    /// Adds the scene's text (first) or an override (`name` is `None`) and returns its number.
     pub(super) fn add(&mut self, name: Option<String>, body: &str) -> usize {
         let lines = std::iter::once(0).chain(body.match_indices('\n').map(|(i, _)| i + 1)).collect();
         self.texts.push(Text { name, body: body.to_owned(), lines });
         self.texts.len() - 1
     }
-    /// Takes in a fault.
+    /// Adds a fault.
     pub(super) fn push(&mut self, fault: Fault) {
         self.faults.push(fault);
     }
-    /// Takes in a fault of syntax: one for each line, since one slip often upsets the rest of its line.
+    /// Adds a syntax error: one for each line, since one mistake often invalidates the rest of its line.
     pub(super) fn push_syntax(&mut self, fault: Fault) {
         if self.broken.insert((fault.place.text, self.line(&fault.place))) {
             self.faults.push(fault);
         }
     }
-    /// How many faults there are so far.
+    /// The number of faults so far.
     pub(super) fn len(&self) -> usize {
         self.faults.len()
     }
-    /// The text at a place, cut when it is long.
+    /// The text at a place, shortened if it is long.
     pub(super) fn quote(&self, place: &Place) -> String {
         let body = self.texts.get(place.text).map_or("", |t| t.body.as_str());
         let text = body.get(place.span.clone()).unwrap_or("").lines().next().unwrap_or("");
@@ -126,12 +126,12 @@ impl Report {
             let mut first = syntax.clone();
             faults.retain(|f| {
                 let line = (f.place.text, self.line(&f.place));
-                // The first fault that was taken in for a broken line is the one of syntax.
+                // The first fault added for an invalid line is the syntax error.
                 first.remove(&line) || !(f.missing || syntax.contains(&line))
             });
         }
         faults.sort_by_key(|f| (f.place.text, f.place.span.start));
-        // What a force says is read again for each shape that takes it over.
+        // The settings of a force are read again for each shape that uses them.
         let mut seen = BTreeSet::new();
         faults.retain(|f| seen.insert((f.place.text, f.place.span.start, f.message.clone())));
         let in_scene = faults.iter().filter(|f| f.mended == Mended::InScene).count();
@@ -157,7 +157,7 @@ impl Text {
         let start = self.boundary(span.start);
         let from = self.lines.get(line).copied().unwrap_or(0).min(start);
         let to = self.lines.get(line + 1).map_or(self.body.len(), |next| next - 1);
-        // The windows keep long lines short and a megabyte without a line break cheap.
+        // The windows shorten long lines, and keep a megabyte without a line break cheap.
         let left = self.boundary(from.max(start.saturating_sub(4 * SHOWN)));
         let right = self.boundary(to.min(start.saturating_add(4 * SHOWN))).max(start);
         let end = self.boundary(span.end.clamp(start, right));
@@ -199,7 +199,7 @@ impl Text {
     }
 }
 
-/// What a terminal may safely be sent: tabs as spaces, and no character that moves the cursor or turns the direction of writing.
+/// Text that is safe for a terminal: tabs as spaces, and no character that moves the cursor or changes the direction of writing.
 fn cells(text: &str) -> Vec<char> {
     let mut out = Vec::with_capacity(text.len());
     for c in text.chars() {
@@ -217,7 +217,7 @@ fn is_unsafe(c: char) -> bool {
     c.is_control() || matches!(c, '\u{200b}'..='\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2060}'..='\u{206f}')
 }
 
-/// A text of a stranger, fit for a message.
+/// Untrusted text, shortened and cleaned for a message.
 pub(super) fn shorten(text: &str) -> String {
     let mut out: String = cells(text).into_iter().take(60).collect();
     if text.chars().nth(60).is_some() {

@@ -9,7 +9,7 @@ use crate::kernel::Scalar;
 use crate::settings::{Key, Kind, Settings, Value};
 use crate::visit::{PairRow, PairTable};
 
-/// TOML on its way to be written. Numbers have the digits that read back to the same bits.
+/// TOML under construction. Numbers have the digits that read back to the same bits.
 #[derive(Default)]
 pub(super) struct Writer(pub(super) String);
 
@@ -91,7 +91,7 @@ pub(super) fn vector(v: DVec3) -> String {
     format!("[{:?}, {:?}, {:?}]", v.x, v.y, v.z)
 }
 
-/// A key, in quotes where it needs them.
+/// A key, in quotes where necessary.
 pub(super) fn bare(key: &str) -> String {
     let plain = !key.is_empty() && key.chars().all(|c| c.is_ascii_alphanumeric() || c == '_' || c == '-');
     if plain { key.to_owned() } else { quoted(key) }
@@ -115,7 +115,7 @@ pub(super) fn quoted(text: &str) -> String {
     out
 }
 
-/// The same scene with these files named by their way from a folder.
+/// The same scene with these files named by paths relative to a folder.
 pub(super) fn nearby(text: &str, files: &[PathBuf], folder: &Path) -> String {
     let Ok(folder) = std::fs::canonicalize(folder) else { return text.to_owned() };
     let named = |file: &PathBuf| {
@@ -133,13 +133,13 @@ pub(super) fn nearby(text: &str, files: &[PathBuf], folder: &Path) -> String {
     out
 }
 
-/// The same scene with each file in a folder of its own, beside it; with these names, and where the files are.
+/// The same scene with each file in a numbered folder beside it; with these names, and the paths of the files.
 pub(super) fn packed(text: &str, files: &[PathBuf]) -> (String, Vec<(String, PathBuf)>) {
     let (mut text, mut named) = (text.to_owned(), Vec::new());
     for file in files {
         let Some(from) = file.to_str().map(quoted).filter(|from| text.contains(from)) else { continue };
         let Some(end) = file.file_name().and_then(|end| end.to_str()) else { continue };
-        // Its own name in a folder of its own: messages, and laws, are named after it.
+        // Each file keeps its own name: messages and laws refer to it.
         let name = format!("{}/{}", named.len(), plain(end));
         text = text.replace(&from, &quoted(&name));
         named.push((name, file.clone()));
@@ -147,12 +147,12 @@ pub(super) fn packed(text: &str, files: &[PathBuf]) -> (String, Vec<(String, Pat
     (text, named)
 }
 
-/// The name of a file with `_` for what other systems take for a way through folders.
+/// The name of a file with `_` for characters that are path separators on other systems.
 pub(crate) fn plain(name: &str) -> String {
     name.chars().map(|c| if matches!(c, '/' | '\\' | ':') || c.is_control() { '_' } else { c }).collect()
 }
 
-/// The way from a folder to a file, with slashes; none between two drives.
+/// The relative path from a folder to a file, with slashes; `None` between two drives.
 fn way(folder: &Path, file: &Path) -> Option<String> {
     let (from, to): (Vec<_>, Vec<_>) = (folder.components().collect(), file.components().collect());
     let shared = from.iter().zip(&to).take_while(|(a, b)| a == b).count();

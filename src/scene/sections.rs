@@ -1,5 +1,5 @@
-//! The sections of a scene and their keys, as data. A later section adds its line here, its file beside this one and
-//! its field in [`Scene`](super::Scene).
+//! The sections of a scene and their keys, as data. A new section needs a line here, a file beside this one and a field in
+//! [`Scene`](super::Scene).
 
 use crate::forces;
 use crate::integrators::INTEGRATORS;
@@ -23,7 +23,7 @@ pub struct Section {
     pub keys: &'static [Key],
     /// Descriptions of the keys that the section's own file reads.
     pub own: &'static [Own],
-    /// More keys, of the kinds that an entry may be of.
+    /// More keys, of all kinds that an entry may have.
     pub(super) kinds: fn() -> Vec<&'static [Key]>,
 }
 
@@ -102,12 +102,12 @@ impl Section {
             || self.keys.iter().any(|k| k.name == key)
             || (self.kinds)().iter().any(|keys| keys.iter().any(|k| k.name == key))
     }
-    /// How its header is written.
+    /// Its header in a scene.
     #[must_use]
     pub fn header(&self) -> String {
         if self.many { format!("[[{}]]", self.name) } else { format!("[{}]", self.name) }
     }
-    /// How an override names a key of it.
+    /// The path of one of its keys in an override.
     pub(super) fn path(&self, key: &str) -> String {
         if self.many { format!("{}.0.{key}", self.name) } else { format!("{}.{key}", self.name) }
     }

@@ -39,7 +39,7 @@ pub(super) const KEYS: &[Key] = &[
         "the Courant number of adaptive steps, a factor of every limit",
     ),
 ];
-/// What only adaptive steps have.
+/// The keys of adaptive steps only.
 const ADAPTIVE: [&str; 3] = ["dt_min", "dt_before", "cfl"];
 pub(super) const OWN: &[&str] = &["steps", "until", "integrator"];
 
@@ -48,13 +48,13 @@ pub(super) struct Simulation {
     pub(super) steps: u64,
     pub(super) integrator: &'static integrators::Entry,
     pub(super) integrator_settings: Settings,
-    /// How long steps are, where they are adaptive, and where the scene says so.
+    /// The adaptive time step, if steps are adaptive, and its place in the scene.
     pub(super) adaptive_step: Option<(AdaptiveStep, Place)>,
-    /// When it ends.
+    /// The end time.
     pub(super) until: f64,
-    /// The step that the scene gives, where it is made smaller so that an integer of them ends at `until`.
+    /// The step given in the scene, if it was reduced so that an integer of steps ends at `until`.
     pub(super) given_dt: Option<f64>,
-    /// What the user may want to know.
+    /// A remark for the user.
     pub(super) remark: Option<String>,
 }
 
@@ -108,7 +108,7 @@ pub(super) fn read(table: Option<&Table<'_>>, report: &mut Report) -> Simulation
                     simulation.steps = steps;
                     simulation.until = until;
                     if let Some((dt, remark)) = divided(until, simulation.dt, steps) {
-                        // How long adaptive steps are, is found as they go.
+                        // The lengths of adaptive steps are determined during the run.
                         if !settings.flag("adaptive") {
                             simulation.given_dt = Some(simulation.dt);
                             simulation.dt = dt;
@@ -137,7 +137,7 @@ pub(super) fn read(table: Option<&Table<'_>>, report: &mut Report) -> Simulation
     simulation
 }
 
-/// How long steps are, if they are adaptive.
+/// The adaptive time step, if steps are adaptive.
 fn adaptive_step(
     table: &Table<'_>,
     settings: &Settings,
@@ -168,17 +168,17 @@ fn adaptive_step(
     Some((adaptive_step, entry.place.clone()))
 }
 
-/// The steps that reach `until`: the quotient, with its rounding forgiven, and the next whole number when it is none.
+/// The number of steps to `until`: the quotient up to rounding errors, and the next integer if it is none.
 fn steps(until: f64, dt: f64) -> Option<u64> {
     let quotient = until / dt;
-    // A few roundings of the quotient, of `until` and of `dt`; and never so much that a visible part of a step is lost.
+    // A few rounding errors of the quotient, of `until` and of `dt`; but never a visible part of a step.
     let forgiven = (quotient * 4.0 * f64::EPSILON).max(1e-9);
     let steps = (quotient - forgiven).ceil().max(1.0);
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "whole, between 1 and 1e12")]
     (steps <= MOST_STEPS).then_some(steps as u64)
 }
 
-/// The step of which so many end at `until`, where those of dt end behind it, and what is said of that.
+/// The step with which `steps` steps end at `until`, if steps of `dt` end after it, and the remark on that.
 fn divided(until: f64, dt: f64, steps: u64) -> Option<(f64, String)> {
     #[expect(clippy::cast_precision_loss, reason = "at most 1e12")]
     let count = steps as f64;

@@ -1,4 +1,4 @@
-//! Where a scene comes from, and its text.
+//! The source of a scene, and its text.
 
 use std::fs::File;
 use std::io::Read;
@@ -13,7 +13,7 @@ pub(super) const LONGEST: u64 = 16 << 20;
 /// The comment of a scene that is written back, after its own first comment.
 pub(super) const RESOLVED: &str = "Every value of the run, defaults included.";
 
-/// Where a scene comes from.
+/// The source of a scene.
 #[derive(Debug, Clone)]
 pub enum Source {
     /// A file. The files that it names are searched in its folder.
@@ -48,7 +48,7 @@ impl Source {
     /// scene is reached by `./name`.)
     ///
     /// # Errors
-    /// There is neither; the message names a built-in scene with a similar name.
+    /// When there is neither; the message names a built-in scene with a similar name.
     pub fn find(word: &str) -> Result<Self, Diagnostics> {
         if let Some(builtin) = SCENES.iter().find(|s| s.name == word) {
             return Ok(Self::Builtin(builtin));
@@ -79,7 +79,7 @@ impl Source {
             Self::File(path) => {
                 let file = shorten_path(path);
                 let name = path.file_stem().map_or_else(|| file.clone(), |s| shorten(&s.to_string_lossy()));
-                // Results go into a folder of that name, which must not exist in every folder.
+                // Results are written into a folder of that name, which must not be one that every folder contains.
                 let name = if matches!(name.as_str(), "." | "..") { "scene".to_owned() } else { name };
                 let folder = path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new(".")).to_owned();
                 let text = read(path).map_err(|why| Diagnostics::alone(&file, why, Vec::new()))?;
@@ -102,13 +102,13 @@ impl Source {
     }
 }
 
-/// A path as messages show it.
+/// A path, shortened for messages.
 pub(super) fn shorten_path(path: &Path) -> String {
     path.display().to_string().chars().map(|c| if c.is_control() { '\u{fffd}' } else { c }).collect()
 }
 
-/// A pipe that has a name, and so may wait forever for a program that fills it. One without, as a shell makes of
-/// `<(command)`, leads nowhere in the tree of files.
+/// A pipe with a name, which may wait forever for a program that writes to it. An unnamed one, such as that of a shell's `<(command)`, has
+/// no path in the file system.
 #[cfg(unix)]
 fn is_named_pipe(path: &Path) -> bool {
     use std::os::unix::fs::FileTypeExt;
@@ -154,6 +154,6 @@ pub(super) fn about(text: &str) -> String {
     let lines = text.lines().map(str::trim).skip_while(|l| l.is_empty());
     let comments = lines.map_while(|l| l.strip_prefix('#')).map(|l| l.strip_prefix(' ').unwrap_or(l));
     let about = comments.collect::<Vec<_>>().join("\n").trim_end().to_owned();
-    // A scene without a comment would have this comment once it has been written back.
+    // A scene without a comment would get this one as its own when it is written back.
     if about == RESOLVED { String::new() } else { about }
 }

@@ -1,4 +1,4 @@
-//! TOML as a tree in which every key and value knows its place.
+//! TOML as a tree in which every key and value has its place in the text.
 
 use std::ops::Range;
 
@@ -7,10 +7,10 @@ use toml::de::{DeTable, DeValue};
 
 use super::report::{Fault, Place, Report};
 
-/// The deepest nesting. The parser bounds brackets and the dots of a key each by 80, which together are thousands.
+/// The maximum nesting. The parser limits brackets and the dots of a key to 80 each, which together allow thousands.
 const LEVELS: usize = 16;
 const TOO_DEEP: (&str, &str) = ("this is nested too deeply", "no scene needs more than 6 levels");
-/// Above this many bytes only the first fault of syntax is looked for: each costs memory.
+/// In texts with more bytes than this only the first syntax error is reported: each costs memory.
 const RECOVERABLE: usize = 1 << 20;
 
 /// A value with its place.
@@ -20,7 +20,7 @@ pub(super) struct Node {
     pub(super) data: Data,
 }
 
-/// What a value is.
+/// The data of a value.
 #[derive(Debug, Clone)]
 pub(super) enum Data {
     Text(String),
@@ -42,7 +42,7 @@ pub(super) struct Entry {
 }
 
 impl Node {
-    /// What it is, for "…, not …".
+    /// A description of the value, for "…, not …".
     pub(super) fn describe(&self, report: &Report) -> String {
         let quote = || report.quote(&self.place);
         match &self.data {
@@ -57,7 +57,7 @@ impl Node {
     }
 }
 
-/// Parses a scene. What does not parse is reported; what does is in the tree.
+/// Parses a scene. Invalid parts are reported; valid ones are in the tree.
 pub(super) fn parse(text: usize, body: &str, report: &mut Report) -> Vec<Entry> {
     let (table, faults) = if body.len() <= RECOVERABLE {
         DeTable::parse_recoverable(body)
@@ -76,7 +76,7 @@ pub(super) fn parse(text: usize, body: &str, report: &mut Report) -> Vec<Entry> 
     entries
 }
 
-/// Parses one value that starts at byte `at` of the text; the error says what is wrong with it.
+/// Parses one value that starts at byte `at` of the text; the error describes its fault.
 pub(super) fn parse_value(text: usize, at: usize, body: &str) -> Result<Node, String> {
     let value = DeValue::parse(body).map_err(|fault| fault.message().to_owned())?;
     let mut planter = Planter { text, at, too_deep: None };
@@ -84,10 +84,10 @@ pub(super) fn parse_value(text: usize, at: usize, body: &str) -> Result<Node, St
     if planter.too_deep.is_some() { Err(TOO_DEEP.0.to_owned()) } else { Ok(node) }
 }
 
-/// Reports what the parser found, in words that say what to do.
+/// Reports the errors of the parser, with advice.
 fn report_syntax(text: usize, body: &str, faults: Vec<toml::de::Error>, report: &mut Report) {
     for fault in faults {
-        // The parser does not say where a key has too many dots.
+        // The parser gives no position where a key has too many dots.
         let span = fault.span().unwrap_or(Place::end().span);
         let span_start = span.start;
         let words = body.get(span.clone()).unwrap_or("").trim_matches(['"', '\'']);
@@ -120,7 +120,7 @@ fn is_decimal_comma(body: &str, at: usize) -> bool {
     body.as_bytes().get(at) == Some(&b',') && digit(at.checked_sub(1)) && digit(at.checked_add(1))
 }
 
-/// Makes the tree of a text of which the parser saw the part that starts at byte `at`.
+/// Builds the tree of a text whose part from byte `at` on was parsed.
 struct Planter {
     text: usize,
     at: usize,
@@ -130,7 +130,7 @@ struct Planter {
 
 impl Planter {
     fn entries(&mut self, table: DeTable<'_>, levels: usize) -> Vec<Entry> {
-        // Where a value is missing, the parser puts one without any extent in its place.
+        // Where a value is missing, the parser inserts one with an empty span.
         let given = table.into_iter().filter(|(_, value)| !value.span().is_empty());
         let mut list: Vec<_> = given
             .map(|(key, value)| {
@@ -147,7 +147,7 @@ impl Planter {
         let data = match value.into_inner() {
             DeValue::String(s) => Data::Text(s.into_owned()),
             DeValue::Integer(i) => Data::Integer(i64::from_str_radix(i.as_str(), i.radix()).ok()),
-            // The grammar has been checked; what does not parse was reported as a fault of syntax.
+            // The grammar has been checked; invalid numbers were reported as syntax errors.
             DeValue::Float(f) => Data::Float(f.as_str().parse().unwrap_or(f64::NAN)),
             DeValue::Boolean(b) => Data::Flag(b),
             DeValue::Datetime(_) => Data::Date,

@@ -1,4 +1,4 @@
-//! One value against its kind.
+//! Checks of a value against its kind.
 
 use std::borrow::Cow;
 
@@ -32,7 +32,7 @@ pub(super) fn read(node: &Node, key: &str, kind: Kind, report: &mut Report) -> O
             }
             _ => refuse(node, key, &kind.wanted(), report),
         },
-        // Whether there is a motion or a file of that name is checked by its section.
+        // Whether such a motion or file exists is checked by its section.
         Kind::Motion | Kind::File => match &node.data {
             Data::Text(name) => Some(Value::Text(Cow::Owned(name.clone()))),
             _ => refuse(node, key, &kind.wanted(), report),
@@ -45,7 +45,7 @@ pub(super) fn read(node: &Node, key: &str, kind: Kind, report: &mut Report) -> O
     }
 }
 
-/// A number of this kind; `wanted` says it in words.
+/// A number of this kind; `wanted` describes the kind.
 pub(super) fn number(node: &Node, key: &str, kind: Kind, wanted: &str, report: &mut Report) -> Option<f64> {
     let whole = kind.is_whole();
     let value = match node.data {

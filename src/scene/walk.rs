@@ -7,14 +7,14 @@ use super::sections::SECTIONS;
 use super::tree::{Data, Entry, Node};
 use super::value;
 
-/// Keys that have another name than they had, where the new one is known.
+/// Keys that were renamed: the old name, and the new one, which is suggested where it is a key.
 const RENAMED: [(&str, &str); 2] = [("particle_radius", "particle_size"), ("radius", "size")];
 
 /// A table of the scene, with the name that messages give it.
 #[derive(Clone)]
 pub(super) struct Table<'a> {
     pub(super) entries: &'a [Entry],
-    /// Its header, or the whole of it when it is written inline.
+    /// Its header, or all of it if it is written inline.
     pub(super) place: &'a Place,
     /// For "… in [[force]] gravity".
     pub(super) name: String,
@@ -25,12 +25,12 @@ impl<'a> Table<'a> {
     pub(super) fn get(&self, key: &str) -> Option<&'a Entry> {
         self.entries.iter().find(|e| e.key == key)
     }
-    /// The same table under a more exact name.
+    /// The same table under a more specific name.
     pub(super) fn named(&self, name: String) -> Self {
         Self { name, ..self.clone() }
     }
-    /// Reads the table: every key is one of `keys`, or one of `own`, which the caller reads. Values that are left out or
-    /// wrong get their defaults, so that the reading continues; the report knows.
+    /// Reads the table: every key is one of `keys`, or one of `own`, which the caller reads. Missing or invalid values get their defaults,
+    /// so that reading continues; they are in the report.
     pub(super) fn settings(&self, keys: &[Key], own: &[&str], report: &mut Report) -> Settings {
         let mut settings = Settings::defaults(keys);
         for entry in self.entries {
@@ -47,7 +47,7 @@ impl<'a> Table<'a> {
         }
         settings
     }
-    /// The fault of a key that must be given and is not.
+    /// The fault of a required key that is missing.
     pub(super) fn lacks(&self, key: &str, wanted: &str, about: &str) -> Fault {
         Fault::missing(self.place, format!("{} lacks `{key}`", self.name))
             .label(format!("add `{key}`, {wanted}: {about}"))
@@ -68,7 +68,7 @@ impl<'a> Table<'a> {
         };
         fault.note(format!("known here: {}", listed(known())))
     }
-    /// Which of several keys is given; exactly one must be.
+    /// The one key of several that is given; exactly one must be.
     pub(super) fn one_of(&self, keys: &[&str], report: &mut Report) -> Option<&'a Entry> {
         let mut given = self.entries.iter().filter(|e| keys.contains(&e.key.as_str()));
         let Some(first) = given.next() else {
@@ -168,7 +168,7 @@ fn unknown_section(entry: &Entry) -> Fault {
     fault.note(format!("the sections are {}", headers.join(", ")))
 }
 
-/// One of the words of a register; `noun` is what they name.
+/// One of the names of a register; `noun` describes them.
 pub(super) fn choice<'a>(entry: &Entry, noun: &str, known: &[&'a str], report: &mut Report) -> Option<&'a str> {
     value::choice(&entry.node, &entry.key, noun, known, report)
 }

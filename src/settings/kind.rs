@@ -2,7 +2,7 @@
 
 use super::{Key, SIDES, Value, listed, nearest};
 
-/// What values a key accepts.
+/// The values that a key accepts.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Kind {
     /// Any finite number.
@@ -11,7 +11,7 @@ pub enum Kind {
     Positive,
     /// A finite number, zero or above.
     NotNegative,
-    /// A number above zero, one at most.
+    /// A number above zero, at most one.
     Fraction,
     /// An integer, one or above, that fits 32 bits.
     Count,
@@ -29,19 +29,19 @@ pub enum Kind {
     Flag,
     /// The name of a motion of the scene, or an empty text: none.
     Motion,
-    /// The name of a file of the scene, or an empty text: none. A shape gets what is in it.
+    /// The name of a file of the scene, or an empty text: none. A shape gets the contents of the file.
     File,
     /// Some of [`SIDES`], with blanks between them, or an empty text: none.
     Sides,
     /// A colour by name or as "#ffcc88", or an empty text: none.
     Color,
-    /// Coefficients of each pair of species, by these keys, as in `[{ species = [0, 1], epsilon = 1.0 }, …]`. Every pair of species that
-    /// particles have is given once, in any order.
+    /// Coefficients of each pair of species, with these keys, as in `[{ species = [0, 1], epsilon = 1.0 }, …]`. Every pair of existing
+    /// species is given once, in any order.
     Pairs(&'static [Key]),
 }
 
 impl Kind {
-    /// Whether a value is of the sort that it accepts, whatever its range.
+    /// Whether a value has the accepted type, regardless of its range.
     pub(super) fn takes(self, value: &Value) -> bool {
         match self {
             Self::Number | Self::Positive | Self::NotNegative | Self::Fraction | Self::Count | Self::Whole => {
@@ -54,7 +54,7 @@ impl Kind {
             Self::Pairs(keys) => matches!(value, Value::Pairs(rows) if rows.iter().all(|row| row.fits(keys))),
         }
     }
-    /// What it wants, for "… must be …".
+    /// A description of the accepted values, for "… must be …".
     #[must_use]
     pub fn wanted(self) -> String {
         match self {
@@ -79,12 +79,12 @@ impl Kind {
             }
         }
     }
-    /// Whether it takes integers alone.
+    /// Whether it accepts only integers.
     #[must_use]
     pub fn is_whole(self) -> bool {
         matches!(self, Self::Count | Self::Whole | Self::Species)
     }
-    /// The largest number that it takes.
+    /// The largest accepted number.
     #[must_use]
     pub fn largest(self) -> f64 {
         match self {
@@ -95,7 +95,7 @@ impl Kind {
             _ => f64::from(f32::MAX),
         }
     }
-    /// Where a number lies that it does not take.
+    /// The reason why a number is outside the accepted range, if it is.
     #[must_use]
     pub fn outside(self, x: f64) -> Option<Outside> {
         let low = match self {
@@ -119,7 +119,7 @@ impl Kind {
             None
         }
     }
-    /// Why it does not take a value of its sort: the number.
+    /// The reason for refusing a value of the accepted type: the number.
     pub(super) fn refuses(self, value: &Value) -> Option<String> {
         let number = |kind: Self, x: f64| kind.outside(x).map(|outside| format!("{x}{}", outside.because()));
         match (self, value) {
@@ -146,16 +146,16 @@ impl Kind {
     }
 }
 
-/// Where a number lies that a kind does not take.
+/// The reasons why a number is not accepted.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Outside {
-    /// It is none, or infinite.
+    /// It is NaN or infinite.
     NotFinite,
-    /// It is not whole.
+    /// It is not an integer.
     Broken,
-    /// Below the least, or above what a part may be.
+    /// Below the minimum, or above the maximum of a fraction.
     Range,
-    /// Beyond what the device holds.
+    /// Beyond the range of the device.
     TooLarge,
     /// It would be zero in single precision.
     TooSmall,

@@ -1,4 +1,4 @@
-//! Names that were meant.
+//! Suggestions for misspelt names.
 
 use std::fmt::Write as _;
 
@@ -14,7 +14,7 @@ pub fn listed<'a>(words: impl IntoIterator<Item = &'a str>) -> String {
     out
 }
 
-/// The known word that is nearest to what was written, when it is near enough to have been meant.
+/// The known word that is nearest to the given one, if it is near enough.
 #[must_use]
 pub fn nearest<'a>(word: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     if word.len() > 64 {
@@ -35,7 +35,7 @@ pub fn nearest<'a>(word: &str, known: impl IntoIterator<Item = &'a str>) -> Opti
         .map(|(_, k)| k)
 }
 
-/// What is said of a name that is none of the known ones.
+/// The message for an unknown name.
 #[must_use]
 pub fn unknown<'a>(name: &str, known: impl Iterator<Item = &'a str>) -> String {
     let known: Vec<&str> = known.collect();

@@ -1,6 +1,6 @@
 //! A number in text.
 
-/// A number as one would write it: to twelve digits, for what a sum or a product has rounded is none of its own.
+/// A number in its usual notation: with twelve digits, which hides the rounding errors of sums and products.
 #[must_use]
 pub fn plain(x: f64) -> String {
     let x = format!("{x:.11e}").parse().unwrap_or(x);

@@ -1,4 +1,4 @@
-//! How much a shape makes, known before it is made, and whether there is memory for it.
+//! The number of particles of a shape, before it is built, and whether there is memory for it.
 
 use std::fmt;
 use std::ops::AddAssign;
@@ -35,7 +35,7 @@ const TRIANGLE: f64 = 120.0;
 const SMALL: f64 = 6.7e7;
 
 impl Amount {
-    /// So many particles, without links.
+    /// The amount of `particles` particles, without links.
     #[must_use]
     pub fn of(particles: f64) -> Self {
         Self { particles, ..Self::default() }
@@ -59,11 +59,11 @@ impl Amount {
             + JOINT * self.joints
             + TRIANGLE * self.triangles
     }
-    /// Whether there is memory for so much: of what the system says is free, and of what it grants. Gives the words that say
-    /// how much is needed, and how much there is.
+    /// Checks whether there is enough memory, by the free memory of the system and by its limits. Otherwise returns a text with the
+    /// required and the available memory.
     ///
     /// # Errors
-    /// Those words, where there is not.
+    /// That text, if there is not.
     pub fn fits(&self) -> Result<(), String> {
         let bytes = self.bytes();
         if bytes < SMALL {
@@ -119,17 +119,17 @@ fn shown(bytes: f64) -> String {
     if bytes < GIB { format!("{:.0} MiB", bytes / 1_048_576.0) } else { format!("{:.1} GiB", bytes / GIB) }
 }
 
-/// Bytes that this process may still take; nothing where the system does not say.
+/// Bytes that this process may still allocate; `None` if the system does not provide it.
 #[cfg(target_os = "linux")]
 fn free() -> Option<f64> {
     let text = |path: &str| std::fs::read_to_string(path).ok();
     let first = |text: &str| text.split_whitespace().find_map(|word| word.parse::<f64>().ok());
     let row = |path: &str, name: &str| text(path)?.lines().find_map(|line| first(line.strip_prefix(name)?));
     let system = row("/proc/meminfo", "MemAvailable:").map(|kib| 1024.0 * kib);
-    // What `ulimit -v` leaves.
+    // The limit of `ulimit -v`.
     let used = row("/proc/self/status", "VmSize:").map_or(0.0, |kib| 1024.0 * kib);
     let process = row("/proc/self/limits", "Max address space").map(|most| (most - used).max(0.0));
-    // What a container leaves; files that the system has read ahead or not yet written make room.
+    // The limit of a container; its file cache can be reclaimed.
     let group = |name: &str| text(&format!("/sys/fs/cgroup/{name}")).and_then(|text| first(&text));
     let files = row("/sys/fs/cgroup/memory.stat", "file ").unwrap_or(0.0);
     let contained = group("memory.max").zip(group("memory.current"));
@@ -137,7 +137,7 @@ fn free() -> Option<f64> {
     [system, process, contained].into_iter().flatten().reduce(f64::min)
 }
 
-/// Bytes that this process may still take; other systems are asked by reserving.
+/// Bytes that this process may still allocate; on other systems it is tested by reserving.
 #[cfg(not(target_os = "linux"))]
 fn free() -> Option<f64> {
     None

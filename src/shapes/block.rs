@@ -51,7 +51,7 @@ fn amount(settings: &Settings) -> Amount {
     Amount::of(sides.max(DVec3::ONE).element_product())
 }
 
-/// As many particles along each side as fit best, in the middle of their shares; each weighs what the fluid in its share does.
+/// The best-fitting number of particles along each side, in the centres of their shares; each has the mass of the fluid in its share.
 fn build(settings: &Settings) -> Result<State, Error> {
     let reader = Reader { shape: "block", settings };
     let (size, spacing) = (reader.vector("size")?, reader.positive("spacing")?);

@@ -108,7 +108,7 @@ impl Reader<'_> {
         Ok((count, State::with_room(count).map_err(|why| missing(why.to_string()))?))
     }
 
-    /// Whether so many particles may be asked for at all: what takes memory before it is known how many there will be, asks first.
+    /// Checks whether this many particles are allowed: used before memory is allocated for an unknown number.
     pub fn fits(&self, count: f64) -> Result<(), Error> {
         if count <= f64::from(MOST) {
             let missing = |why: String| Error::Limit(format!("shape `{}`: {why}; ask for fewer", self.shape));
@@ -120,7 +120,7 @@ impl Reader<'_> {
         )))
     }
 
-    /// The same particles, if every number stayed finite, and the settings were those of the shape.
+    /// The same particles, if all numbers are finite, and the settings are those of the shape.
     pub fn finished(&self, particles: State) -> Result<State, Error> {
         self.named()?;
         let finite = particles.position().iter().chain(particles.velocity()).all(|v| v.is_finite())
@@ -148,7 +148,7 @@ impl State {
         if weight > 0.0 { (position / weight, velocity / weight) } else { (DVec3::ZERO, DVec3::ZERO) }
     }
 
-    /// Moves all, so that the centre of mass lies at `center` and moves with `velocity`.
+    /// Moves all particles, so that the centre of mass is at `center` and has the velocity `velocity`.
     pub(super) fn centered(mut self, center: DVec3, velocity: DVec3) -> Self {
         let (x, v) = self.center();
         for position in self.position_mut() {

@@ -137,7 +137,7 @@ fn build(settings: &Settings) -> Result<State, Error> {
     reader.finished(particles)
 }
 
-/// What the sheet is made of.
+/// The threads of the sheet.
 struct Threads {
     stretch: f64,
     shear: f64,

@@ -77,7 +77,7 @@ fn build(settings: &Settings) -> Result<State, Error> {
     reader.finished(particles.centered(reader.vector("center")?, reader.vector("velocity")?))
 }
 
-/// A ball with so many particles in it.
+/// A ball with a number of particles.
 struct Clump {
     center: DVec3,
     radius: f64,
@@ -91,7 +91,7 @@ impl Clump {
             return places.push(self.center);
         }
         for child in 0..children.min(self.count) {
-            // As even as can be; the first have one more.
+            // As evenly as possible; the first have one more.
             let count = self.count / children + u32::from(child < self.count % children);
             let center = self.center + random.ball() * self.radius;
             Self { center, radius: self.radius * shrink, count }.fill(children, shrink, random, places);

@@ -35,7 +35,7 @@ fn amount(settings: &Settings) -> Amount {
     Amount::of((sides.max(DVec3::ONE).element_product() * 0.55).ceil())
 }
 
-/// All places of a lattice about its centre that are within the drop; each weighs what the fluid in its share does.
+/// All points of a lattice about its centre that are within the drop; each has the mass of the fluid in its share.
 fn build(settings: &Settings) -> Result<State, Error> {
     let reader = Reader { shape: "drop", settings };
     let (size, spacing) = (reader.vector("size")?, reader.positive("spacing")?);

@@ -11,7 +11,7 @@ use crate::life::{Birth, Life};
 use crate::settings::{Key, Kind, Settings, Value};
 use crate::state::State;
 
-/// The key that makes a spray of an emitter: what it says is of no fluid.
+/// The key that makes an emitter a spray: its other keys are then not those of a fluid.
 pub const SPRAY: &str = "rate";
 
 /// The keys of an emitter.
@@ -88,11 +88,11 @@ const FOREVER: f64 = 3.402_823_466_385_288_6e38;
 /// Room for rounding, in parts of a row: a particle that would leave just at the end does not.
 const ROUNDING: f64 = 1e-9;
 
-/// The particles of an emitter in so many dimensions, in the order of their births. They stand in its mouth; they have no mass
-/// and no velocity before they are spawned. Those that would leave after `end` are left out, and there are `room` at most.
+/// The particles of an emitter in `dimensions` dimensions, in the order of their births. They are placed in its mouth; they have no mass
+/// and no velocity before they are spawned. Those that would leave after `end` are left out, and there are at most `room`.
 ///
 /// # Errors
-/// [`Error::Scene`] when a setting makes no sense, or no particle would leave; [`Error::Limit`] when there would be more than `room`.
+/// [`Error::Scene`] when a setting is invalid, or no particle would leave; [`Error::Limit`] when there would be more than `room`.
 pub fn build(settings: &Settings, dimensions: u32, end: f64, room: u32) -> Result<State, Error> {
     let reader = Reader { shape: "emitter", settings };
     let refuse = |text: String| Err(Error::Scene(format!("an emitter {text}")));
@@ -190,9 +190,9 @@ impl Mouth {
         let half = if flat { [half[0], 0.0] } else { half };
         Ok(Self { half, round: shape == "disk" && !flat, axes: [aside, direction.cross(aside)], direction, flat })
     }
-    /// The places of a lattice, each with its share of the mouth; at least one.
+    /// The points of a lattice, each with its share of the mouth; at least one.
     fn lattice(&self, spacing: f64, room: u32) -> Result<Vec<DVec3>, Error> {
-        // As many as fit best, in the middle of their shares.
+        // The best-fitting number, in the centres of their shares.
         let numbers = self.half.map(|half| (2.0 * half / spacing).round().max(1.0));
         if numbers[0] * numbers[1] > f64::from(room) {
             let text = format!(
@@ -213,7 +213,7 @@ impl Mouth {
         }
         Ok(if sites.is_empty() { vec![DVec3::ZERO] } else { sites })
     }
-    /// A random place.
+    /// A random position.
     fn anywhere(&self, random: &mut Random) -> DVec3 {
         let [x, y] = if self.round {
             let (r, angle) = (random.uniform().sqrt(), std::f64::consts::TAU * random.uniform());

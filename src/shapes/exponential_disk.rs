@@ -8,9 +8,9 @@
 
 use std::f64::consts::PI;
 
-/// Beyond this radius, in `R_d`, the disk pulls like its monopole and quadrupole.
+/// Beyond this radius, in `R_d`, the disk is approximated by its monopole and quadrupole.
 const FAR: f64 = 20.0;
-/// Steps of the Hankel integral. Its sum repeats the disk every 2π / step = 251 `R_d`, far from what it is asked for.
+/// The step of the Hankel integral. The sum repeats the disk every 2π / step = 251 `R_d`, far from the radii used.
 const K_STEP: f64 = 0.025;
 const K_STEPS: u32 = 4000;
 
@@ -31,7 +31,7 @@ fn differences() -> impl Iterator<Item = (f64, f64)> {
 pub(super) struct Spectrum {
     /// Mean square height.
     thickness: f64,
-    /// What the sum for `across` leaves out at k = 0, where its summand starts with a slope (Euler & Maclaurin).
+    /// The correction of the sum for `across` at k = 0, where its summand has a slope (Euler & Maclaurin).
     start: f64,
     inward: Vec<f64>,
     across: Vec<f64>,

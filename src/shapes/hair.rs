@@ -58,9 +58,9 @@ fn amount(settings: &Settings) -> Amount {
     Amount { rods, joints, ..Amount::of(strands * points) }
 }
 
-/// `strands * points` particles, strand by strand from its root on. Roots lie evenly on the cap (Fibonacci's lattice), and
-/// strands stand straight off the head, whose middle is at `center`. Inner joints have EI / ds, the clamped one at the
-/// second particle 2 EI / ds: half of the piece before it does not bend.
+/// `strands * points` particles, strand by strand from its root on. Roots are distributed evenly on the cap (Fibonacci's lattice), and
+/// strands are perpendicular to the head, whose centre is at `center`. Inner joints have EI / ds, the clamped one at the second particle 2
+/// EI / ds: half of the piece before it does not bend.
 fn build(settings: &Settings) -> Result<State, Error> {
     let reader = Reader { shape: "hair", settings };
     let (strands, points) = (settings.whole("strands"), settings.whole("points"));

@@ -11,12 +11,12 @@ pub(super) struct Mesh {
     pub triangles: Vec<[usize; 3]>,
 }
 
-/// Samples stand this far apart at least, in spacings: packed at random so, there is one for each square of a spacing
-/// (Feder 1980: 0.547 of a plane are covered by disks of half that distance).
+/// The minimum distance of samples, in spacings: with this random packing there is one for each square of a spacing (Feder 1980: disks of
+/// half that distance cover 0.547 of a plane).
 const APART: f64 = 0.834;
 /// Places that are tried along a spacing.
 const TRIES: f64 = 4.0;
-/// Corners are moved off by so many times the depth of a wall at most, however sharp they are.
+/// The maximum displacement of corners, in depths of a wall, however sharp they are.
 const SHARP: f64 = 3.0;
 
 impl Mesh {
@@ -59,7 +59,7 @@ impl Mesh {
     fn corners(&self, triangle: &[usize; 3]) -> [DVec3; 3] {
         triangle.map(|id| self.places[id])
     }
-    /// How large its surface is.
+    /// The area of its surface.
     pub fn area(&self) -> f64 {
         let of = |t: &[usize; 3]| {
             let [a, b, c] = self.corners(t);
@@ -67,8 +67,8 @@ impl Mesh {
         };
         self.triangles.iter().map(of).sum()
     }
-    /// The mesh so far behind its faces: corners go along their normals, weighted by angles (Thürmer & Wüthrich 1998), and as
-    /// far as brings the planes of their faces there.
+    /// The mesh at a depth behind its faces: corners move along their normals, weighted by angles (Thürmer & Wüthrich 1998), far enough
+    /// that the planes of their faces are at that depth.
     pub fn behind(&self, depth: f64) -> Self {
         let mut normals = vec![DVec3::ZERO; self.places.len()];
         let mut around: Vec<Vec<DVec3>> = vec![Vec::new(); self.places.len()];
@@ -88,7 +88,7 @@ impl Mesh {
         let places = self.places.iter().zip(normals.iter().zip(&around)).map(moved).collect();
         Self { places, triangles: self.triangles.clone() }
     }
-    /// How many places [`Mesh::sampled`] would try at a spacing, about: as many as its edges and faces ask for.
+    /// The approximate number of points that [`Mesh::sampled`] would try at a spacing, for its edges and faces.
     pub fn tries(&self, spacing: f64) -> f64 {
         let per = TRIES / spacing;
         let of = |t: &[usize; 3]| {
@@ -98,8 +98,8 @@ impl Mesh {
         };
         self.triangles.iter().map(of).sum()
     }
-    /// Samples of its surface at a spacing: corners first, then edges, then faces, each place that is far enough from all taken
-    /// before, so that nothing is there twice and no hole is larger than a spacing. The same mesh gives the same samples.
+    /// Samples of its surface at a spacing: corners first, then edges, then faces; each point is accepted if it is far enough from all
+    /// previous ones, so that there are no duplicates and no hole is larger than a spacing. The same mesh gives the same samples.
     pub fn sampled(&self, spacing: f64) -> Vec<DVec3> {
         let mut taken = Taken { apart: APART * spacing, cells: HashMap::new(), places: Vec::new() };
         let all = || self.triangles.iter().map(|triangle| self.corners(triangle));
@@ -110,7 +110,7 @@ impl Mesh {
             }
         }
         for [a, b, c] in all() {
-            // Rows along the longest edge, as far apart as places are: what is narrow has few.
+            // Rows along the longest edge, as far apart as points: narrow triangles have few.
             let edges = [(a, b, c), (b, c, a), (c, a, b)];
             let longest =
                 edges.into_iter().reduce(|x, y| if (y.1 - y.0).length() > (x.1 - x.0).length() { y } else { x });
@@ -125,7 +125,7 @@ impl Mesh {
     }
 }
 
-/// The parts of a length between its ends at which places are tried.
+/// The points between the ends of an edge that are tried, as parts of its length.
 fn inner(length: f64, spacing: f64) -> impl Iterator<Item = f64> {
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "tries are counted before")]
     let parts = (TRIES * length / spacing).ceil().max(1.0) as u32;

@@ -34,7 +34,7 @@ use crate::error::Error;
 use crate::settings::{Key, Settings};
 use crate::state::State;
 
-/// A named generator: what a scene's `shape = "…"` may say.
+/// A named generator: a value of a scene's `shape = "…"`.
 pub struct Shape {
     /// The scene's word for it.
     pub name: &'static str,
@@ -44,11 +44,10 @@ pub struct Shape {
     pub keys: &'static [Key],
     /// Makes the particles. The same settings give the same bits on every platform.
     pub build: fn(&Settings) -> Result<State, Error>,
-    /// How much it makes, at most, for settings that are sound, so that memory is asked for before it is made. Nothing where
-    /// only `build` finds that out.
+    /// The maximum amount that it makes, for valid settings, so that memory is checked first. Zero where only `build` can determine it.
     pub amount: fn(&Settings) -> Amount,
-    /// What follows on its first part, where it has several, in the order of ids: the key of the colour of each, and how
-    /// many particles are of it. For settings that `build` takes.
+    /// The parts after its first one, if it has several, in the order of ids: the key of the colour of each, and its number of particles.
+    /// For settings that `build` accepts.
     pub parts: fn(&Settings) -> Vec<(&'static str, u32)>,
     /// The keys by which its number of particles goes.
     pub resolution: Resolution,

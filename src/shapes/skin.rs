@@ -55,7 +55,7 @@ const MOST: u64 = 64;
 /// The layers of a wall.
 pub(super) struct Skin {
     pub spacing: f64,
-    /// How far the first layer is behind the face \[length\].
+    /// The depth of the first layer behind the face \[length\].
     pub depth: f64,
     pub layers: u32,
     mass: f64,
@@ -77,11 +77,11 @@ impl Skin {
         let smoothing = Smoothing::named(reader.settings.text("kernel"));
         let gap = if lattice { 1.0 } else { gap(smoothing, support, layers, dimensions) };
         let mass = density * if flat { spacing * spacing } else { spacing.powi(3) };
-        // The fluid's first layer stands half a spacing before the face.
+        // The fluid's first layer is half a spacing in front of the face.
         let depth = (gap - 0.5) * spacing;
         Ok(Self { spacing, depth, layers, mass, radius: reader.not_negative("particle_size")? })
     }
-    /// How far behind the face each layer is \[length\].
+    /// The depths of the layers behind the face \[length\].
     pub fn depths(&self) -> impl Iterator<Item = f64> {
         (0..self.layers).map(|k| self.depth + f64::from(k) * self.spacing)
     }
@@ -97,7 +97,7 @@ impl Skin {
     }
 }
 
-/// How many lattice cells are along each side; 1 along z where that is flat.
+/// The number of lattice cells along each side; 1 along z in two dimensions.
 pub(super) fn cells(reader: &Reader<'_>, size: DVec3, spacing: f64) -> Result<DVec3, Error> {
     if size.x <= 0.0 || size.y <= 0.0 || size.z < 0.0 {
         return Err(reader.error(&format!("size is {size}; sides must be above 0, that along z 0 at least")));

@@ -55,7 +55,7 @@ fn amount(settings: &Settings) -> Amount {
         let skin = Skin::of(&reader, size.z == 0.0)?;
         let numbers = cells(&reader, size, skin.spacing)?;
         let open: Vec<&str> = settings.text("open").split_whitespace().collect();
-        let closed = |side: &&&str| !open.contains(*side) && !(size.z == 0.0 && side.ends_with('z'));
+        let closed = |side: &&&str| !(open.contains(*side) || size.z == 0.0 && side.ends_with('z'));
         let sides = [["-x", "+x"], ["-y", "+y"], ["-z", "+z"]].map(|names| names.iter().filter(closed).count() as f64);
         let whole = numbers + DVec3::from(sides) * f64::from(skin.layers);
         Ok::<_, Error>(whole.element_product() - numbers.element_product())

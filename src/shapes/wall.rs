@@ -24,7 +24,7 @@ pub const WALL: Shape = Shape {
     resolution: Resolution::Spacing,
 };
 
-/// So many places of a mesh are tried at most: a minute's work.
+/// The maximum number of points of a mesh that are tried: a minute's work.
 const MOST_TRIES: f64 = 2e8;
 
 const SURFACES: &[&str] = &["plane", "box", "sphere", "mesh"];
@@ -57,7 +57,7 @@ const KEYS: &[Key] = &[
     RADIUS,
 ];
 
-/// One or more layers of particles behind a face, so far that the first layer of fluid before it is at rest.
+/// One or more layers of particles behind a face, at the depth at which the first layer of fluid in front of it is at rest.
 fn build(settings: &Settings) -> Result<State, Error> {
     let reader = Reader { shape: "wall", settings };
     let (size, surface) = (reader.vector("size")?, settings.text("surface"));
@@ -117,7 +117,7 @@ fn hull(reader: &Reader<'_>, skin: &Skin, side: f64, size: DVec3) -> Result<Vec<
         let depths: Vec<f64> = if side > 0.0 {
             skin.depths().collect()
         } else {
-            // What is thin has its two faces a spacing apart at least, or is one layer.
+            // A thin wall has two faces at least a spacing apart, or is one layer.
             skin.depths().take_while(|depth| half - depth >= 0.5 * skin.spacing).collect()
         };
         let walls: Vec<f64> = depths.iter().map(|depth| half + side * depth).collect();
@@ -150,7 +150,7 @@ fn sphere(reader: &Reader<'_>, skin: &Skin, side: f64, size: DVec3) -> Result<Ve
         );
     }
     let radii = skin.depths().map(|depth| 0.5 * size.x + side * depth);
-    // What is smaller than its walls are thick is one particle.
+    // A shape smaller than the thickness of its walls is one particle.
     let first = |(k, radius): (usize, f64)| if k == 0 { radius.max(0.0) } else { radius };
     let radii: Vec<f64> = radii.enumerate().map(first).filter(|radius| *radius >= 0.0).collect();
     let number = |radius: f64| {
@@ -194,6 +194,6 @@ fn mesh(reader: &Reader<'_>, skin: &Skin, side: f64) -> Result<Vec<DVec3>, Error
             skin.spacing
         )));
     }
-    // Faces look outwards, and what is within is on their other side.
+    // Faces point outwards, and the inside is on their other side.
     Ok(skin.depths().flat_map(|depth| mesh.behind(-side * depth).sampled(skin.spacing)).collect())
 }

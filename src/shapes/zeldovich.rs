@@ -25,15 +25,15 @@ impl Wave {
     }
 }
 
-/// The displacements of a lattice of so many particles along each axis, x fastest, periodic over it; in its spacings, with
-/// one as their root mean square along each axis, and none where no wave fits.
+/// The displacements of a periodic lattice with this number of particles along each axis, x fastest; in its spacings, with a root mean
+/// square of one along each axis, and zero where no wave fits.
 pub(super) fn displacements(size: [usize; 3], slope: f64, random: &mut Random) -> Vec<DVec3> {
     let longest = size.into_iter().max().unwrap_or(1);
     // No more than a wave for four particles: the lattice does not resolve shorter ones well.
     let most = WAVES.min(i32::try_from(longest / 4).unwrap_or(WAVES));
     let lengths = size.map(|n| n as f64);
     let mut field = waves(lengths, most, slope, random);
-    // Axis by axis; each sum leaves one place for every particle along its axis, instead of one for every wave.
+    // Axis by axis; each sum replaces the waves of its axis by its particles.
     let mut shape = [2 * most + 1; 3].map(|n| usize::try_from(n).unwrap_or(0));
     for axis in [2, 1, 0] {
         field = summed(&field, shape, axis, size[axis], most);
@@ -64,7 +64,7 @@ fn waves(lengths: [f64; 3], most: i32, slope: f64, random: &mut Random) -> Vec<W
     all
 }
 
-/// The sum over the waves of one axis, at each of `places` along it.
+/// The sum over the waves of one axis, at each of `places` points along it.
 fn summed(field: &[Wave], shape: [usize; 3], axis: usize, places: usize, most: i32) -> Vec<Wave> {
     let stride: usize = shape[..axis].iter().product();
     let (many, blocks) = (shape[axis], shape[axis + 1..].iter().product::<usize>());

@@ -4,7 +4,7 @@ use super::Simulation;
 use crate::error::Error;
 use crate::kernel::{Array, Backend, Reason, STEP_CLOCK, STEP_CLOCK_WORDS, STOP, TICKS, split};
 
-/// What a clock has counted.
+/// The state and the statistics of a clock.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Clock {
     /// Steps done.
@@ -13,13 +13,13 @@ pub struct Clock {
     pub time: f64,
     /// The length of the last step \[time\]; 0 where the run rests, because its stop is reached.
     pub dt: f64,
-    /// Why it is no longer.
+    /// The reason that limits its length.
     pub reason: Reason,
     /// The limiting particle: the lowest id of those whose criterion gave it, where there is one.
     pub particle: Option<u32>,
     /// The shortest and the longest step so far \[time\].
     pub between: [f64; 2],
-    /// How many steps had each reason, in the order of [`Reason::ALL`].
+    /// The number of steps with each reason, in the order of [`Reason::ALL`].
     pub reasons: [u32; Reason::ALL.len()],
     /// The length of a step that continues from here, if it is given to [`AdaptiveStep::before`](crate::kernel::AdaptiveStep::before) \[time\].
     pub free: f64,
@@ -46,7 +46,7 @@ impl Clock {
             free: length(words[3]),
         }
     }
-    /// How many steps surely do not pass a time, and one at least: none is longer than `longest`, or more than a fifth longer
+    /// A number of steps, at least one, that cannot pass the time `stop`: no step is longer than `longest`, or more than a fifth longer
     /// than the one before it.
     #[must_use]
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a number of steps, capped")]
@@ -73,7 +73,7 @@ fn time_of(words: &[u32], longest: f64) -> f64 {
 }
 
 impl<B: Backend> Simulation<B> {
-    /// What the clock has counted; nothing where steps are all alike.
+    /// The clock of the run; `None` where all steps have the same length.
     ///
     /// # Errors
     /// Errors of reading.
@@ -81,7 +81,7 @@ impl<B: Backend> Simulation<B> {
         self.settle().await?;
         self.clock_now().await
     }
-    /// The same, whether the list had room or not.
+    /// Like [`Self::clock`], whether or not the list had enough capacity.
     pub(super) async fn clock_now(&mut self) -> Result<Option<Clock>, Error> {
         let Some(words) = self.words().await? else { return Ok(None) };
         let mut clock = Clock::of(&words, self.dt);
@@ -89,12 +89,12 @@ impl<B: Backend> Simulation<B> {
         self.steps = clock.steps;
         Ok(Some(clock))
     }
-    /// Where the run stops: the last step before is shortened, and steps after it move no particle until it stops elsewhere (forces
-    /// are evaluated again in them, and what depends on velocities is another with those at rest: to leave no trace, run none). It is met
-    /// to 2⁻²⁵ of the longest step; this is the time that it gives.
+    /// Sets the time at which the run stops: the last step before it is shortened, and later steps move no particle until another stop is
+    /// set (forces are evaluated again in them, at zero velocities, which changes quantities that depend on velocity: to avoid this, run no
+    /// such steps). The stop is met to 2⁻²⁵ of the longest step; the time that is reached is returned.
     ///
     /// # Errors
-    /// [`Error::Scene`] where steps are all alike, or the time lies too far away.
+    /// [`Error::Scene`] where all steps have the same length, or the time is too far away.
     pub fn stop_at(&mut self, time: f64) -> Result<f64, Error> {
         if self.adaptive_step.is_none() {
             return Err(Error::Scene(
@@ -122,14 +122,14 @@ impl<B: Backend> Simulation<B> {
         let Array::Uint(words) = words else { return Ok(None) };
         Ok(words.try_into().ok())
     }
-    /// Lets the run continue forever, where its steps are adaptive.
+    /// Removes the stop, where steps are adaptive.
     pub(super) fn unstop(&mut self) -> Result<(), Error> {
         if self.adaptive_step.is_none() {
             return Ok(());
         }
         self.backend.write(STOP.name, &Array::Uint(vec![u32::MAX, 0]))
     }
-    /// Looks whether forces have asked for a step that is shorter than the shortest.
+    /// Checks whether forces have required a step shorter than the shortest.
     pub(super) async fn on_step_clock(&mut self) -> Result<(), Error> {
         let (Some(words), Some(adaptive_step)) = (self.words().await?, self.adaptive_step) else { return Ok(()) };
         self.steps = Clock::of(&words, self.dt).steps;

@@ -9,7 +9,7 @@ use crate::kernel::{ALARM, ALARM_WORDS, Array, Backend, Element, LAW, Plan, QUIE
 /// The marks by which an alarm names users' laws, and their names with their files.
 pub type Marks = BTreeMap<u32, String>;
 
-/// The marks of all laws of these plans that have one.
+/// The marks of all laws of these plans that have a mark.
 pub fn marks(plans: &Plans) -> Marks {
     plans.all().flat_map(marked).collect()
 }
@@ -36,12 +36,12 @@ impl<B: Backend> Simulation<B> {
     pub async fn check(&mut self) -> Result<(), Error> {
         let mut alarm = self.alarm().await?;
         let [.., cut, endless] = alarm;
-        // Sums that lack neighbours make numbers that are none, and speeds that run away.
+        // Sums that lack neighbours lead to numbers that are not finite, and to runaway speeds.
         if cut == u32::MAX && endless == u32::MAX && self.settle().await? {
             alarm = self.alarm().await?;
         }
         let [done, .., fast, particle] = [alarm[0], alarm[1], alarm[3], alarm[4]];
-        // What runs away is lost in the end: the first cause is reported.
+        // A runaway leads to numbers that are not finite in the end: the first cause is reported.
         let [.., cut, endless] = alarm;
         if fast != u32::MAX && fast <= done && cut == u32::MAX && endless == u32::MAX {
             let particle = self.named(particle);
@@ -55,11 +55,11 @@ impl<B: Backend> Simulation<B> {
         let words = u32::view(&alarm).and_then(|words| <[u32; ALARM_WORDS]>::try_from(words.as_slice()).ok());
         Ok(words.unwrap_or(QUIET))
     }
-    /// Whether laws have done all that they do, numbers are numbers, and searches have found all particles.
+    /// Whether laws were evaluated completely, all numbers are finite, and searches have found all particles.
     pub(super) fn sound(&self, alarm: &[u32; ALARM_WORDS]) -> Result<(), Error> {
         let [done, particle, crowded, .., cut, endless] = *alarm;
         let law = |mark: u32| self.marks.get(&mark).cloned().unwrap_or_else(|| "a law".to_owned());
-        // A law that is wrong makes numbers that are none, and searches that do not end.
+        // A wrong law leads to numbers that are not finite, and to searches that do not end.
         if endless != u32::MAX {
             return Err(Error::Endless { law: law(endless) });
         }
@@ -67,7 +67,7 @@ impl<B: Backend> Simulation<B> {
             return Err(Error::CutShort { law: law(cut) });
         }
         if done != u32::MAX {
-            // The first look comes before the first step, every other one after a step that is done.
+            // The first check comes before the first step, every other one after a completed step.
             let particle = self.named(particle);
             return Err(Error::NotFinite { particle, step: u64::from(done.saturating_sub(1)) });
         }

@@ -13,7 +13,7 @@ use crate::kernel::{
 use crate::motion::{Held, Hold};
 use crate::state::State;
 
-/// The columns that fixed particles have: their target positions.
+/// The columns that kinematic particles require: their target positions.
 pub(super) fn of_held(held: &[Held]) -> Vec<Column> {
     let any = |of: fn(&Hold) -> bool| held.iter().any(|one| of(&one.by));
     let mut columns = Vec::new();
@@ -70,7 +70,7 @@ impl Store {
         }
         backend.write(ACCELERATION.name, &Array::Vec4(vec![DVec4::ZERO; count]))
     }
-    /// Fills the places of fixed particles at time 0, in their order, where a plan asks for them, and says how many they are.
+    /// Fills the positions of fixed particles at time 0, in their order, where a plan requires them, and returns their number.
     pub fn anchor<B: Backend>(backend: &mut B, setup: &Setup) -> Result<usize, Error> {
         let homes: Vec<_> = setup.homes().into_iter().map(|home| home.extend(0.0)).collect();
         let count = homes.len();
@@ -81,7 +81,7 @@ impl Store {
     pub fn is_bound(&self, buffer: &str) -> bool {
         self.bound.contains(buffer)
     }
-    /// Gives rows of a column that no plan binds other values; its initial one, where none are given.
+    /// Sets the values of a column that no plan binds, at some rows; its initial value where none are given.
     pub fn put(&mut self, column: &Column, values: Option<&Array>, rows: &[u32], capacity: u32) {
         if values.is_none() && !self.idle.contains_key(&column.name) {
             return;
@@ -106,7 +106,7 @@ impl Store {
     }
 }
 
-/// What a simulation makes of the elements of positions and velocities, and of targets, before it starts.
+/// The values of positions, velocities and targets with which a simulation starts.
 fn started(setup: &Setup, buffer: &str, elements: &mut [DVec4], goes_on: bool) {
     let state = &setup.state;
     let inside = |x: DVec4| boundary::wrapped(&setup.bounds, x.truncate()).extend(x.w);
@@ -129,7 +129,7 @@ impl<B: Backend> Simulation<B> {
     pub fn columns(&self) -> &Columns {
         &self.store.columns
     }
-    /// Refuses what cannot be written by hand, and numbers that are none.
+    /// Refuses fields that a caller cannot write, and numbers that are not finite.
     pub(super) fn may_write(&self, name: &str, values: &Array, first: usize) -> Result<(), Error> {
         if name == "world" {
             let text = "the field `world` holds the clock and the box, and cannot be written: start a simulation from a state with another time";
@@ -161,7 +161,7 @@ impl<B: Backend> Simulation<B> {
         self.settle().await?;
         self.column_now(name).await
     }
-    /// The same, whether the list had room or not.
+    /// Like [`Self::read_column`], whether or not the list had enough capacity.
     async fn column_now(&mut self, name: &str) -> Result<Array, Error> {
         let column = self.store.named(name)?.clone();
         if !self.store.lies_on_device(&column) {
@@ -181,7 +181,7 @@ impl<B: Backend> Simulation<B> {
     /// there.
     ///
     /// # Errors
-    /// [`Error::Scene`] when there is no such column, or the values are of another kind or number; or what the device says.
+    /// [`Error::Scene`] when there is no such column, or the values are of another kind or number; or the device fails.
     pub async fn write_column(&mut self, name: &str, values: &Array) -> Result<(), Error> {
         let column = self.store.named(name)?.clone();
         let wanted = column.array(self.count() as usize);
@@ -247,7 +247,7 @@ impl<B: Backend> Simulation<B> {
             } else {
                 Some(self.column_now(&column.name).await?)
             };
-            // There is no such column where all are active, and none where ids are rows.
+            // There is no such column where all particles are active, or where ids are rows.
             if values.is_some() || column.name != LIFE.name && column.name != ID.name {
                 state.put(column, values);
             }

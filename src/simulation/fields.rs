@@ -8,7 +8,7 @@ use crate::error::Error;
 use crate::kernel::{Access, Array, Kernel};
 use crate::settings::nearest;
 
-/// A field: what its elements are, each shader as it has them, and its bytes.
+/// A field: the kind of its elements, as each shader declares it, and its size in bytes.
 #[derive(Debug, Clone, PartialEq)]
 struct Known {
     kinds: Vec<Array>,
@@ -20,7 +20,7 @@ struct Known {
 pub struct Fields(BTreeMap<String, Known>);
 
 impl Fields {
-    /// Those of plans for so many rows.
+    /// The fields of plans for `rows` rows.
     pub fn of(plans: &Plans, rows: u32) -> Self {
         let mut all: BTreeMap<String, Known> = BTreeMap::new();
         for plan in plans.all() {
@@ -39,10 +39,10 @@ impl Fields {
         }
         Self(all)
     }
-    /// The elements of a field, counted as those of such an array.
+    /// The number of elements of a field, counted in elements of the kind of `like`.
     ///
     /// # Errors
-    /// [`Error::Scene`] when there is no such field, or its elements are others.
+    /// [`Error::Scene`] when there is no such field, or its elements are of another kind.
     pub fn len(&self, name: &str, like: &Array) -> Result<usize, Error> {
         let Some(known) = self.0.get(name) else {
             let shown = self.0.keys().map(String::as_str).filter(|name| !name.contains(' '));
@@ -60,7 +60,7 @@ impl Fields {
         let each = like.zeros(1).to_bytes().len() as u64;
         Ok(usize::try_from(known.bytes / each).unwrap_or(usize::MAX))
     }
-    /// The fields that are not the same in others, but for these.
+    /// The names of fields that differ from those of `others`, except these.
     pub fn differ<'a>(&'a self, others: &'a Self, but: &BTreeSet<String>) -> Vec<&'a str> {
         let all = self.0.keys().chain(others.0.keys()).filter(|name| !but.contains(*name));
         all.filter(|name| self.0.get(*name) != others.0.get(*name)).map(String::as_str).collect()
@@ -68,7 +68,7 @@ impl Fields {
     /// Whether a field has room for such values from one of its elements on.
     ///
     /// # Errors
-    /// As [`Fields::len`], and [`Error::Scene`] with both numbers when it ends before.
+    /// As [`Fields::len`], and [`Error::Scene`] with both numbers when it is too short.
     pub fn hold(&self, name: &str, values: &Array, first: usize) -> Result<(), Error> {
         let (have, end) = (self.len(name, values)?, first.saturating_add(values.len()));
         if end > have {

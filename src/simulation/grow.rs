@@ -1,25 +1,25 @@
-//! Room for more rows, or for more neighbours of each: buffers are made anew, the plan is written for them, and all that a step keeps is
-//! carried over row by row.
+//! Room for more rows, or for more neighbours of each particle: buffers are recreated, the plan is rewritten for them, and all restart data
+//! of a step is copied row by row.
 
 use super::{Simulation, Start};
 use crate::error::Error;
 use crate::kernel::{Array, Backend, STOP};
 use crate::state::{KEPT_ROOM, KEPT_ROWS};
 
-/// What there shall be room for.
+/// The capacity to provide.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Room {
-    /// So many rows in all; ids are a column then.
+    /// This many rows in all; ids are then a column.
     Rows(u32),
-    /// So many neighbours of each particle on the list.
+    /// This many neighbours of each particle on the list.
     Neighbors(u32),
 }
 
 impl<B: Backend> Simulation<B> {
-    /// Makes room. The simulation stays as it is until that is done.
+    /// Increases the capacity. The simulation is unchanged until that is complete.
     ///
     /// # Errors
-    /// [`Error::Limit`] when a device does not hold so many, and what reading and compiling say; nothing has changed then.
+    /// [`Error::Limit`] when a device does not hold so many, and errors of reading and compiling; nothing has changed then.
     pub(super) async fn grow(&mut self, room: Room) -> Result<(), Error> {
         let keep = self.backend.compile(&self.plans.keep)?;
         self.backend.run(&keep, 1)?;
@@ -47,7 +47,7 @@ impl<B: Backend> Simulation<B> {
         *self = grown;
         Ok(())
     }
-    /// Carries over what no state has: where an adaptive run stops.
+    /// Copies the data that no state holds: the stop of an adaptive run.
     async fn carry(&mut self, to: &mut Self) -> Result<(), Error> {
         if self.adaptive_step.is_some() {
             let stop = self.backend.read(STOP.name, &Array::Uint(Vec::new()), 2).await?;

@@ -5,11 +5,12 @@ use crate::forces::{Component, Over};
 use crate::integrators::Integrator;
 use crate::state::State;
 
-/// Whether forces and an integrator serve inactive particles. Such a particle is in no cell list, has no mass, and is put to rest after
-/// every evaluation: that serves searches of a grid, what acts on each alone, and attraction by mass. It does not apply to links.
+/// Checks whether forces and an integrator are compatible with inactive particles. Such a particle is in no cell list, has no mass, and its
+/// velocity is set to zero after every evaluation: this suffices for searches of a grid, for forces on each particle alone, and for
+/// attraction by mass. It does not suffice for links.
 ///
 /// # Errors
-/// [`Error::Scene`] that names what does not.
+/// [`Error::Scene`] that names the component that is not compatible.
 pub fn serves(particles: &State, forces: &[Box<dyn Component>], integrator: &dyn Integrator) -> Result<(), Error> {
     if !particles.has_inactive() {
         return Ok(());
@@ -40,7 +41,7 @@ pub fn serves(particles: &State, forces: &[Box<dyn Component>], integrator: &dyn
     }
 }
 
-/// Refuses laws that take inactive particles for active ones.
+/// Refuses laws that treat inactive particles as active ones.
 pub(super) fn evaluate_active(forces: &[Box<dyn Component>]) -> Result<(), Error> {
     let refuse = |text: String| Err(Error::Scene(text));
     for force in forces {

@@ -1,4 +1,4 @@
-//! The initial projection: where particles are that solids have put out before the first step.
+//! The initial projection: the positions of particles that obstacles have moved out before the first step.
 
 use glam::DVec3;
 
@@ -6,19 +6,19 @@ use super::Setup;
 use crate::error::Error;
 use crate::forces::Problem;
 
-/// A particle nearer to its place than this part of the size of its coordinates is there: single precision holds no more.
+/// A particle counts as moved only if it moves by more than this part of the size of its coordinates: single precision resolves no less.
 const ROUNDING: f64 = 1e-6;
 
-/// Where the particles are then.
+/// The positions after the projection.
 #[derive(Default)]
 pub(super) struct Projected {
-    /// All places, by id \[length\].
+    /// All positions, by id \[length\].
     pub places: Vec<DVec3>,
-    /// The particles that were moved, and how far \[length\].
+    /// The particles that were moved, and their displacements \[length\].
     pub moved: Vec<(usize, f64)>,
 }
 
-/// Asks all forces.
+/// Applies the projections of all forces.
 pub(super) fn projected(setup: &Setup, problem: &Problem) -> Result<Projected, Error> {
     let mut kept = Projected { places: setup.state.position().to_vec(), moved: Vec::new() };
     let resolved = setup.forces.iter().map(|force| force.resolved(problem)).collect::<Result<Vec<_>, _>>()?;

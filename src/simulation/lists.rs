@@ -13,10 +13,10 @@ use crate::neighbors::{Cells, LIST, LIST_STATE, LIST_STATE_WORDS};
 use crate::state::{KEPT_NEIGHBORS, KEPT_ROOM};
 use crate::visit;
 
-/// The same problem with the neighbours counted that laws want to know of, and with a list that has room for half as many neighbours more than any particle has at the start.
+/// The same problem with the neighbour counts that laws require, and with a list that has room for 1.5 times the largest count at the start.
 ///
 /// # Errors
-/// [`Error::Scene`] when a range or a skin is none.
+/// [`Error::Scene`] when a range or a skin is invalid.
 pub(super) fn counted(setup: &Setup, problem: Problem) -> Result<Problem, Error> {
     let laws: Vec<Law> = setup.forces.iter().flat_map(|force| force.laws()).collect();
     let places = || -> Vec<DVec3> {
@@ -27,11 +27,11 @@ pub(super) fn counted(setup: &Setup, problem: Problem) -> Result<Problem, Error>
     let Some(shape) = visit::shared_list(&laws, &problem)? else { return Ok(problem) };
     let places = places();
     let most = Cells::new(&places, setup.bounds, shape.reach())?.most();
-    // Pending particles are not counted: there is as much room as where nothing is known, at least.
+    // Pending particles are not counted: there is at least as much room as where no count is known.
     let most = if problem.has_inactive { most.max(visit::UNCOUNTED) } else { most };
     let count = problem.capacity;
     let shape = shape.with_room(most, count);
-    // A simulation that grows says how much room it makes. A state holds no room: that goes by when the list was looked at.
+    // A simulation that grows sets its capacity. A state holds no capacity: that depends on when the list was checked.
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "saturates")]
     let made = setup.state.kept.get(KEPT_ROOM).and_then(|list| list.first()).map_or(0, |room| *room as u32).min(count);
     let made = if made == 0 || made < most { shape.capacity } else { made };
@@ -40,8 +40,8 @@ pub(super) fn counted(setup: &Setup, problem: Problem) -> Result<Problem, Error>
     Ok(problem.listed(Some(ListShape { capacity, ..shape })))
 }
 
-/// How many neighbours particles have within the ranges of laws that choose their search by it. A run that continues knows what it was at
-/// its start, and keeps its search.
+/// The neighbour counts within the ranges of laws that choose their search by it. A run that continues uses the counts of its start, and
+/// keeps its search.
 fn neighbors(setup: &Setup, laws: &[Law], places: &dyn Fn() -> Vec<DVec3>) -> Result<Vec<Neighbors>, Error> {
     let mut all: Vec<Neighbors> = Vec::new();
     let kept = setup.state.kept.get(KEPT_NEIGHBORS).unwrap_or_default();
@@ -58,41 +58,41 @@ fn neighbors(setup: &Setup, laws: &[Law], places: &dyn Fn() -> Vec<DVec3>) -> Re
     Ok(all)
 }
 
-/// The part of the room for neighbours from which on there is made more, although it suffices yet: steps that cannot be repeated,
-/// because a caller has encoded them, find more room then before they need it.
+/// The fraction of the capacity above which more is allocated in advance: steps that cannot be repeated, because a caller has encoded them,
+/// then have enough room before they need it.
 const AMPLE: f64 = 0.8;
 /// Words of an element of the list.
 const FOUR: u64 = 4;
 
-/// What steps are repeated from where the list had no room.
+/// The copy from which steps are repeated when the list had no room.
 pub(super) struct Repeat {
-    /// The fields that steps write: copies of these are a state.
+    /// The fields that steps write: copies of these are a complete state.
     fields: Vec<String>,
-    /// What there is a copy of.
+    /// The state that was copied, if any.
     from: Option<Origin>,
-    /// Whether the list had room in all that was run.
+    /// Whether the list had room in all steps so far.
     sufficed: bool,
 }
 
-/// A simulation that has been copied.
+/// The simulation at the time of the copy.
 struct Origin {
     steps: u64,
     begun: bool,
-    /// Steps since, if any were run.
+    /// The number of steps since, if any were run.
     since: Option<u64>,
 }
 
-/// What the list says of itself.
+/// The status of the list, as read back.
 #[derive(Clone, Copy)]
 struct Seen {
-    /// The most neighbours that any particle had.
+    /// The largest number of neighbours of any particle.
     longest: u32,
-    /// The lowest row that had more than there is room for.
+    /// The lowest row with more neighbours than there is room for.
     overflown: Option<u32>,
 }
 
 impl Repeat {
-    /// That of a simulation with these plans, before it has run.
+    /// The initial value for a simulation with these plans, before it has run.
     pub fn of(plans: &Plans, list: Option<ListShape>) -> Self {
         let kernels = || plans.all().flat_map(|plan| &plan.kernels);
         let mut fields: BTreeSet<String> = kernels().flat_map(Kernel::writes).collect();
@@ -107,11 +107,11 @@ impl Repeat {
 }
 
 impl<B: Backend> Simulation<B> {
-    /// Says that fields are written, or steps run, that nothing repeats.
+    /// Records that fields are written, or steps run, in a way that cannot be repeated.
     pub(super) fn unrepeatable(&mut self) {
         (self.repeat.from, self.repeat.sufficed) = (None, false);
     }
-    /// Copies what these steps begin with, unless there is a copy of what was before; nothing where no list can be too short.
+    /// Copies the state before these steps, unless an earlier copy exists; does nothing where no list can overflow.
     pub(super) fn repeatable(&mut self, steps: Option<u32>) -> Result<(), Error> {
         if self.list.is_none() {
             return Ok(());
@@ -119,7 +119,7 @@ impl<B: Backend> Simulation<B> {
         if self.repeat.from.is_none() {
             match self.backend.save(&self.repeat.fields) {
                 Ok(()) => self.repeat.from = Some(Origin { steps: self.steps, begun: self.begun, since: None }),
-                // The run continues without a copy; where the list is too short then, it ends.
+                // The run continues without a copy; if the list overflows then, the run ends.
                 Err(Error::OutOfMemory(_)) => {}
                 Err(why) => return Err(why),
             }
@@ -130,11 +130,11 @@ impl<B: Backend> Simulation<B> {
         self.repeat.sufficed = false;
         Ok(())
     }
-    /// Looks whether the list had room for all neighbours. If not, it gets more, and the steps since the last look are repeated, so that
-    /// bits are those of a run that had the room from the start. Whether anything has changed.
+    /// Checks whether the list had room for all neighbours. If not, it gets more, and the steps since the last check are repeated, so that
+    /// bits are those of a run that had the room from the start. Returns whether anything has changed.
     ///
     /// # Errors
-    /// [`Error::ListFull`] where the device has no room for more, or the steps cannot be repeated; or what reading and compiling say.
+    /// [`Error::ListFull`] where the device has no room for more, or the steps cannot be repeated; or errors of reading and compiling.
     pub(super) async fn settle(&mut self) -> Result<bool, Error> {
         let mut changed = false;
         while let Some(shape) = self.list.filter(|_| !self.repeat.sufficed) {
@@ -142,8 +142,8 @@ impl<B: Backend> Simulation<B> {
             let more = self.more(shape, seen.longest);
             let ample = f64::from(seen.longest) <= AMPLE * f64::from(shape.capacity);
             match (seen.overflown, more) {
-                // It is seldom, and in a box: whatever reads awaits this. A list that suffices yet ends no run: where the device has no
-                // room for more, or something else is wrong, it stays as it is.
+                // This is rare, and boxed because every read awaits it. A list that still suffices ends no run: where the device has no
+                // room for more, or something else is wrong, it is left unchanged.
                 (None, Some(more)) if !ample && self.is_quiet().await? => {
                     self.repeat.from = None;
                     match Box::pin(self.grow(Room::Neighbors(more))).await {
@@ -166,17 +166,17 @@ impl<B: Backend> Simulation<B> {
         }
         Ok(changed)
     }
-    /// Goes back to the copy, makes room for so many neighbours, and runs the steps since anew.
+    /// Restores the copy, makes room for `more` neighbours, and repeats the steps since.
     async fn again(&mut self, shape: ListShape, row: u32, longest: u32, more: u32) -> Result<(), Error> {
         let full = self.full(shape, row, longest);
         let Some(from) = self.repeat.from.take() else { return Err(full) };
         self.backend.restore()?;
         (self.steps, self.begun) = (from.steps, from.begun);
-        // What was copied may have lacked neighbours itself.
+        // The copied state may itself have lacked neighbours.
         let before = self.seen().await?;
         let grown = if before.overflown.is_some() { Err(full) } else { self.grow(Room::Neighbors(more)).await };
         if let Err(why) = grown {
-            // Each later look finds it again.
+            // Each later check finds the overflow again.
             self.backend.write(LIST_STATE, &Array::Uint(vec![1, 1, longest, !row]))?;
             let lacks = matches!(why, Error::Limit(_) | Error::OutOfMemory(_));
             return Err(if lacks { self.full(shape, row, longest) } else { why });
@@ -189,7 +189,7 @@ impl<B: Backend> Simulation<B> {
         }
         Ok(())
     }
-    /// Whether nothing is wrong that a check would report.
+    /// Whether a check would report no failure.
     async fn is_quiet(&mut self) -> Result<bool, Error> {
         let alarm = self.alarm().await?;
         Ok(self.sound(&alarm).is_ok() && alarm[3] == u32::MAX)
@@ -205,8 +205,8 @@ impl<B: Backend> Simulation<B> {
     fn full(&self, shape: ListShape, row: u32, longest: u32) -> Error {
         Error::ListFull { particle: self.named(row), longest, capacity: shape.capacity, reach: shape.reach() }
     }
-    /// Room for more neighbours than a list has, where a particle had so many: half as many more, but no more than twice as much as
-    /// there was, since steps that lack neighbours drive particles together; nothing where the device holds no more.
+    /// A larger capacity for a list in which a particle had `longest` neighbours: 1.5 times that, but at most twice the previous capacity,
+    /// since steps that lack neighbours drive particles together; `None` where the device cannot hold more.
     fn more(&self, shape: ListShape, longest: u32) -> Option<u32> {
         let rows = self.capacity();
         let machine = self.backend.machine();
@@ -220,7 +220,7 @@ impl<B: Backend> Simulation<B> {
     }
 }
 
-/// Neighbours of each of so many rows of which a field holds the list, and their history, in so many bytes; 0 bytes are no limit.
+/// The number of neighbours per row, with their history, that a list of `rows` rows holds in `bytes` bytes; 0 bytes: no limit.
 fn bindable(shape: ListShape, rows: u64, bytes: u64) -> u32 {
     if bytes == 0 {
         return u32::MAX;

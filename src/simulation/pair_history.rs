@@ -1,8 +1,7 @@
 //! History of pairs in a state: reading and restoring it.
 //!
-//! A state holds the pairs that remember something, by the rows of both. A simulation that begins with them gets a list of neighbours
-//! that holds no other pairs and is out of date: the first evaluation builds it anew, and gives history to its pairs, as it does in
-//! every run.
+//! A state holds the pairs that have history, by the rows of both. A simulation that begins with them gets a neighbour list that holds no
+//! other pairs and is out of date: the first evaluation rebuilds it, and gives history to its pairs, as in every run.
 
 use std::collections::BTreeMap;
 
@@ -15,14 +14,14 @@ use crate::kernel::{Array, Backend, Element, ListShape, Plan};
 use crate::neighbors::{HISTORY, LIST, LIST_ORIGIN, LIST_STATE, LIST_STATE_WORDS, List, NONE};
 use crate::state::{KEPT_PAIR_WORDS, KEPT_PAIRS, State};
 
-/// Where no particle is: whatever is listed from there has moved.
+/// A position where no particle is: a list built there counts as out of date.
 const ELSEWHERE: DVec4 = DVec4::new(1e30, 1e30, 1e30, 1.0);
 
 /// The words of each pair of rows.
 pub(super) type Pairs = BTreeMap<[u32; 2], Vec<f64>>;
 
-/// Refuses a law with history of pairs where a step evaluates it more than once: what a pair remembers continues by one step each time
-/// that it is evaluated, and only the last of these evaluations would count.
+/// Refuses a law with history of pairs where a step evaluates it more than once: the history of a pair advances by one step with each
+/// evaluation, and only the last of these evaluations would count.
 ///
 /// # Errors
 /// [`Error::Scene`] with the number of evaluations.
@@ -41,7 +40,7 @@ pub(super) fn once(forces: &[Box<dyn Component>], step: &Plan) -> Result<(), Err
     Ok(())
 }
 
-/// The most pairs of a row of a state that remember something.
+/// The largest number of pairs with history of any row of a state.
 pub(super) fn longest(state: &State) -> usize {
     let mut rows: BTreeMap<u64, usize> = BTreeMap::new();
     for group in groups(state) {
@@ -50,7 +49,7 @@ pub(super) fn longest(state: &State) -> usize {
     rows.into_values().max().unwrap_or(0)
 }
 
-/// The number of words of each pair of a state, if it says anything of pairs.
+/// The number of words of each pair of a state, if it has pairs with history.
 pub(super) fn width(state: &State) -> Option<usize> {
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "saturates")]
     state
@@ -61,13 +60,13 @@ pub(super) fn width(state: &State) -> Option<usize> {
         .map(|words| *words as usize)
 }
 
-/// Two rows and their words, one pair behind another.
+/// Two rows and their words, one pair after another.
 fn groups(state: &State) -> impl Iterator<Item = &[f64]> {
     let width = width(state).unwrap_or(0).saturating_add(2);
     state.kept.get(KEPT_PAIRS).unwrap_or_default().chunks_exact(width)
 }
 
-/// The pairs of a state, for a law with so many words.
+/// The pairs of a state, for a law with `words` words.
 fn pairs(state: &State, words: u32) -> Result<Pairs, Error> {
     let Some(width) = width(state) else {
         return Err(Error::Scene(format!(
@@ -112,7 +111,7 @@ impl<B: Backend> Simulation<B> {
     pub(super) fn remembering(&self) -> Option<ListShape> {
         self.list.filter(|list| list.words > 0)
     }
-    /// Gives to a state what its pairs remember.
+    /// Adds the history of pairs to a state.
     pub(super) async fn keep_pairs(&mut self, state: &mut State) -> Result<(), Error> {
         let Some(shape) = self.remembering() else { return Ok(()) };
         let (capacity, rows, words) = (self.capacity() as usize, shape.capacity as usize, shape.words as usize);
@@ -123,7 +122,7 @@ impl<B: Backend> Simulation<B> {
         let (Array::Uint(list), Array::Float(history), Array::Vec4(origin)) = (list, history, origin) else {
             return Ok(());
         };
-        // A row that has got another particle since has none.
+        // A row that has got another particle since has no history.
         let stayed = |row: u32| origin.get(row as usize).is_some_and(|from| from.w > 0.0);
         let half = usize::try_from(state.step & 1).unwrap_or(0);
         let mut pairs = Pairs::new();
@@ -143,10 +142,10 @@ impl<B: Backend> Simulation<B> {
         state.kept.put(KEPT_PAIRS, pairs.iter().flat_map(group).collect());
         Ok(())
     }
-    /// Takes up what the pairs of a state remember.
+    /// Restores the history of pairs from a state.
     ///
     /// # Errors
-    /// [`Error::Scene`] when the state is no beginning and says nothing of pairs, or what it says is of other particles.
+    /// [`Error::Scene`] when the state is not of step 0 and holds no history of pairs, or holds that of other particles.
     pub(super) fn recall_pairs(&mut self, state: &State) -> Result<(), Error> {
         let Some(shape) = self.remembering() else { return Ok(()) };
         if state.step == 0 && width(state).is_none() {
@@ -169,7 +168,7 @@ impl<B: Backend> Simulation<B> {
                 Some(())
             });
         }
-        // It has been built once, and is out of date.
+        // The list has been built once, and is out of date.
         let mut moved = vec![0; LIST_STATE_WORDS];
         (moved[0], moved[1]) = (1, 1);
         self.backend.write(LIST, &u32::array(list))?;

@@ -6,7 +6,7 @@ use crate::kernel::{Backend, LIFE};
 use crate::life::{Life, Population};
 
 impl<B: Backend> Simulation<B> {
-    /// Whether each is active; empty, where all are all the time.
+    /// The life of each particle; empty where all particles are always active.
     pub(super) async fn life(&mut self) -> Result<Vec<Life>, Error> {
         let words = if self.inactive > 0 { self.read(LIFE).await? } else { Vec::new() };
         Ok(words.into_iter().filter_map(Life::of).collect())

@@ -5,28 +5,27 @@ use crate::error::Error;
 use crate::kernel::{Array, Backend};
 use crate::sph::{DFSPH_ERRORS, DFSPH_REPORT, DFSPH_WORDS};
 
-/// What became of one of the two solves for pressure that a step of a fluid takes.
+/// Statistics of one of the two pressure solves of a step of a fluid.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PressureSolves {
-    /// Steps that were solved.
+    /// The number of solves.
     pub solves: u32,
-    /// How many of them did not converge.
+    /// The number of solves that did not converge.
     pub failures: u32,
-    /// The first of those, counted from 0.
+    /// The first step that did not converge, counted from 0.
     pub first_failure: Option<u32>,
-    /// The most iterations in one step.
+    /// The largest number of iterations in one step.
     pub most_iterations: u32,
-    /// Those of the last step.
+    /// The iterations of the last step.
     pub iterations: u32,
-    /// Those of all steps; it wraps at 2³².
+    /// The iterations of all steps; wraps at 2³².
     pub all_iterations: u32,
-    /// The mean error that the last step left, as a part of the density.
+    /// The mean error after the last step, relative to the density.
     pub error: f64,
 }
 
 impl<B: Backend> Simulation<B> {
-    /// What became of the solves for a velocity without compression, and of those for the density; none where pressure is not
-    /// solved for.
+    /// Statistics of the divergence solve and of the density solve; `None` where there is no pressure solve.
     ///
     /// # Errors
     /// Errors of reading.

@@ -8,7 +8,7 @@ use std::task::{Context, Poll};
 use crate::error::Error;
 use crate::kernel::{Arrival, Element};
 
-/// The values of a field that [`Simulation::request`](super::Simulation::request) asked for. [`Readback::look`] returns them once they
+/// The values of a field that [`Simulation::request`](super::Simulation::request) requested. [`Readback::look`] returns them once they
 /// have arrived; `.await` waits for them, while the simulation and its device continue. It may be sent to another thread.
 #[must_use = "the values are in it"]
 pub struct Readback<T> {

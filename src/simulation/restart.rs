@@ -1,10 +1,10 @@
-//! How a simulation continues from a state of another one, as if it had never stopped.
+//! Continuation of a run from a state of another simulation, as if it had never stopped.
 //!
-//! Columns hold what particles are. Beside them a step keeps for the next: the accelerations of its first kick, which are those of
-//! half-kicked velocities and cannot be evaluated again; rates of other columns; an adaptive clock, and what forces asked of it; where
-//! fixed particles began; springs that broke; speeds of the last steps, by which an alarm knows that they run away. A state carries
-//! these. They hold for the step that made them: under other forces, in steps of another length or of another integrator, on another
-//! kind of device, accelerations are evaluated again.
+//! Columns hold the state of particles. In addition, a step saves for the next one: the accelerations of its first kick, which are those of
+//! half-kicked velocities and cannot be evaluated again; rates of other columns; an adaptive clock, and the dt criteria of forces; the
+//! initial positions of fixed particles; broken springs; the maximum speeds of the last steps, by which an alarm detects a runaway. A state
+//! carries these. They are valid for the step that wrote them: under other forces, with steps of another length or another integrator, or
+//! on another kind of device, accelerations are evaluated again.
 
 use glam::{DVec3, DVec4};
 
@@ -25,23 +25,23 @@ use crate::state::{
 };
 use crate::visit;
 
-/// How far time and step may disagree, as a part of a step: 2³² steps of a time in double precision.
+/// The tolerated difference of time and step × dt, as a part of a step: 2³² steps of a time in double precision.
 const AGREEMENT: f64 = 1e-6;
 
 /// A field of the device that continues from one step to the next.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Carried {
     field: String,
-    /// An array of its kind, empty.
+    /// An empty array of its kind.
     like: Array,
     len: usize,
     /// Whether it holds only for the positions and velocities of the state.
     rate: bool,
-    /// Elements of each row; 0 where it is no matter of rows.
+    /// Elements per row; 0 where they do not belong to rows.
     each: usize,
 }
 
-/// Those of some plans.
+/// The fields of some plans.
 pub(super) fn carried(plans: &Plans, columns: &Columns, count: u32) -> Vec<Carried> {
     let fields: std::collections::BTreeMap<String, u64> =
         plans.all().flat_map(|plan| plan.fields(count).into_iter()).collect();
@@ -75,15 +75,15 @@ pub(super) fn carried(plans: &Plans, columns: &Columns, count: u32) -> Vec<Carri
 }
 
 impl Carried {
-    /// Its numbers for these rows.
+    /// The numbers of these rows.
     fn picked(&self, list: &[f64], order: &[usize]) -> Vec<f64> {
         self.array(list).map_or_else(Vec::new, |array| numbers(&array.picked(order, self.each)))
     }
-    /// What its numbers are called in a state.
+    /// The name of its numbers in a state.
     fn name(&self) -> String {
         if self.field.starts_with(KEPT) { self.field.clone() } else { format!("{KEPT}{}", self.field) }
     }
-    /// Its elements, out of the numbers of a state.
+    /// Its elements, converted from the numbers of a state.
     fn array(&self, numbers: &[f64]) -> Option<Array> {
         let mut array = match &self.like {
             Array::Vec4(_) => Array::Vec4(numbers.chunks_exact(4).map(DVec4::from_slice).collect()),
@@ -100,7 +100,7 @@ impl Carried {
     }
 }
 
-/// Groups of so many numbers, of which the first are rows, with the places of these; without groups of rows that have none.
+/// Groups of `width` numbers, of which the first `rows` are rows, renumbered by `place`; groups with a row that has no new number are left out.
 fn renumbered(numbers: &[f64], width: usize, rows: usize, place: impl Fn(f64) -> Option<f64>) -> Vec<f64> {
     let group = |group: &[f64]| {
         let places: Option<Vec<f64>> = group[..rows].iter().map(|row| place(*row)).collect();
@@ -109,7 +109,7 @@ fn renumbered(numbers: &[f64], width: usize, rows: usize, place: impl Fn(f64) ->
     numbers.chunks_exact(width).filter_map(group).flatten().collect()
 }
 
-/// The numbers of an array, one behind another.
+/// The numbers of an array, one element after another.
 fn numbers(array: &Array) -> Vec<f64> {
     match array {
         Array::Vec4(list) => list.iter().flat_map(DVec4::to_array).collect(),
@@ -133,8 +133,8 @@ impl Print {
     }
 }
 
-/// A number that two steps share only where they do the same: names are not counted, nor how many neighbours a list has room for, which goes
-/// by when it was looked at.
+/// A hash that two steps share only if they perform the same operations: names are ignored, and so is the capacity of a neighbour list,
+/// which depends on when it was checked.
 pub(super) fn print(step: &Plan) -> u64 {
     let mut print = Print::new();
     for kernel in step.steps() {
@@ -147,7 +147,7 @@ pub(super) fn print(step: &Plan) -> u64 {
             pass.uniforms.iter().for_each(|(_, bytes)| print.add(bytes));
             pass.fields.iter().for_each(|(_, field)| print.add(field.as_bytes()));
         }
-        // Springs break: those that are left stand in the state. A list grows, and is as good.
+        // Springs break: a state holds the remaining ones. A list that grows gives the same results.
         let changes = |name: &str| [visit::LINK, visit::LIST_ALL].contains(&name);
         for (_, words) in kernel.tables.iter().filter(|(name, _)| !changes(name)) {
             words.iter().for_each(|word| print.add(&word.to_le_bytes()));
@@ -156,7 +156,7 @@ pub(super) fn print(step: &Plan) -> u64 {
     print.0
 }
 
-/// The same of a step and the state that it made.
+/// The hash of a step and of the state that it made.
 fn mark(step: u64, state: &State) -> Vec<f64> {
     let mut print = Print(step);
     print.add(&state.step.to_le_bytes());
@@ -173,8 +173,8 @@ fn mark(step: u64, state: &State) -> Vec<f64> {
     [print.0 >> 32, print.0 & 0xffff_ffff].map(|word| word as f64).to_vec()
 }
 
-/// A hash of the columns of a state, in whatever order they stand, by the values that a device holds. What
-/// files leave out counts for nothing: sizes and species that are all 0, and life where all are active.
+/// A hash of the columns of a state, in any order, by their values as a device holds them. Columns that files leave out do not count: sizes
+/// and species that are all 0, and life where all are active.
 fn of_columns(state: &State) -> u64 {
     let counts = |column: &Column| match column.name.as_ref() {
         "size" => state.size().iter().any(|size| *size != 0.0),
@@ -193,13 +193,13 @@ fn of_columns(state: &State) -> u64 {
     state.columns().filter(|(column, _)| counts(column)).map(one).fold(0, u64::wrapping_add)
 }
 
-/// Whether a state is that which this step has made, and nothing of it has changed since.
+/// Whether a state was made by this step and is unchanged since.
 pub(super) fn is_whole(step: u64, state: &State) -> bool {
     state.kept.get(KEPT_STEP) == Some(&mark(step, state)[..])
 }
 
 impl Setup {
-    /// Where particles were at the start of the run, or where they are, if the state does not know.
+    /// The extent of the particles at the start of the run, or at present, if the state does not hold it.
     pub(super) fn extent(&self) -> (DVec3, DVec3) {
         let kept = || {
             let numbers = self.state.kept.get(KEPT_EXTENT).filter(|list| list.len() == 6)?;
@@ -209,10 +209,10 @@ impl Setup {
         };
         kept().unwrap_or_else(|| extent(self.state.position()))
     }
-    /// The steps that are done where the state is.
+    /// The number of steps done at the state.
     ///
     /// # Errors
-    /// [`Error::Scene`] when its time is not that of so many steps, or there are more than a device counts.
+    /// [`Error::Scene`] when its time is not step × dt, or there are more than a device counts.
     pub(super) fn done(&self) -> Result<u32, Error> {
         let State { time, step, .. } = self.state;
         let refuse = |text: String| Err(Error::Scene(text));
@@ -235,7 +235,7 @@ impl Setup {
         }
         Ok(done)
     }
-    /// The words of the adaptive clock of a state: what the last step kept, where it tells the same time, else one that stands there.
+    /// The words of the adaptive clock of a state: those that the last step kept, if they give the same time, else a new clock set to that time.
     fn wound(&self, dt: f64) -> Option<Vec<u32>> {
         let adaptive_step = self.integrator.adaptive_step()?;
         let at = split(self.state.time, dt);
@@ -245,19 +245,19 @@ impl Setup {
         Some(kept.filter(|words| words[..2] == at).unwrap_or_else(|| {
             let mut words = adaptive_step.start(dt);
             words[..2].copy_from_slice(&at);
-            // Why these were as long as they were, nothing tells.
+            // The reasons of these lengths are unknown.
             words[12] = u32::try_from(self.state.step).unwrap_or(u32::MAX);
             words
         }))
     }
-    /// Where fixed particles were at time 0, in their order.
+    /// The positions of fixed particles at time 0, in their order.
     pub(super) fn homes(&self) -> Vec<DVec3> {
         let places = self.state.position();
         let kept = self.state.kept.get(KEPT_HOME).unwrap_or_default().chunks_exact(7);
         let kept: std::collections::BTreeMap<u64, &[f64]> = kept.map(|seven| (seven[0].to_bits(), seven)).collect();
         let home = |id: u32| {
             let here = places[id as usize];
-            // A particle that a caller has put elsewhere begins there.
+            // A particle that a caller has moved begins at its new position.
             let there = kept.get(&f64::from(id).to_bits()).filter(|seven| DVec3::from_slice(&seven[4..]) == here);
             let home = there.map(|seven| DVec3::from_slice(&seven[1..4])).filter(|home| home.is_finite());
             boundary::wrapped(&self.bounds, home.unwrap_or(here))
@@ -267,9 +267,9 @@ impl Setup {
 }
 
 impl<B: Backend> Simulation<B> {
-    /// Whether the state that it was made of continued with all that its last step had kept, so that bits are those of a run that was
-    /// never stopped. Else accelerations were evaluated again there: the state is of step 0, or of a run of other forces, integrator,
-    /// step length or device, or its positions, velocities or other columns were changed.
+    /// Whether the state that it was made of continued with all restart data of its last step, so that results are bit-identical to those
+    /// of a run that was never stopped. Otherwise accelerations were evaluated again: the state is of step 0, or of a run with other
+    /// forces, integrator, step length or device, or its positions, velocities or other columns were changed.
     #[must_use]
     pub fn goes_on(&self) -> bool {
         self.goes_on
@@ -306,7 +306,7 @@ impl<B: Backend> Simulation<B> {
         }
         Ok(())
     }
-    /// Gives to a state what the last step has kept for the next one.
+    /// Adds the restart data of the last step to a state.
     pub(super) async fn keep(&mut self, state: &mut State, all: &Links) -> Result<(), Error> {
         for one in self.carried.clone().into_iter().filter(|one| self.begun || !one.rate) {
             let array = self.backend.read(&one.field, &one.like, one.len).await?;
@@ -335,12 +335,12 @@ impl<B: Backend> Simulation<B> {
         state.kept.put(KEPT_NEIGHBORS, neighbors.collect());
         Ok(())
     }
-    /// Says of a state that this step has made it.
+    /// Marks a state as made by this step.
     pub(super) fn mark(&self, state: &mut State) {
         let mark = mark(self.print, state);
         state.kept.put(KEPT_STEP, mark);
     }
-    /// The same state without rows that are free, or whose particle has been removed, where ids are apart from rows.
+    /// The same state without free rows and rows of removed particles, where ids are separate from rows.
     pub(super) fn compacted(&self, state: State) -> State {
         if !self.rows.are_open() {
             return state;

@@ -1,4 +1,4 @@
-//! Which particle is in which row, and which rows are free. Rows are used again, and ids are not.
+//! The assignment of particles to rows, and the free rows. Rows are reused, and ids are not.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -15,16 +15,16 @@ pub(super) struct Rows {
     free: BTreeSet<u32>,
     /// Rows from here on have never been in use.
     used: u32,
-    /// Whether they may be free.
+    /// Whether rows may be free.
     open: bool,
-    /// How many rows there are.
+    /// The number of rows.
     capacity: u32,
-    /// No particle has had an id from here on.
+    /// All ids from here on are unused.
     next: u32,
 }
 
 impl Rows {
-    /// Those of a state that has a particle, or a free row, for each of them.
+    /// The rows of a state that has a particle, or a free row, for each of them.
     pub fn of(state: &State, capacity: u32) -> Self {
         let used = capacity.saturating_sub(state.free_rows());
         let ids = state.has_ids().then(|| state.ids().into_owned());
@@ -32,11 +32,11 @@ impl Rows {
         let free = ids.iter().flatten().zip(0..).filter(|(id, _)| **id == NONE).map(|(_, row)| row).collect();
         Self { places: named, ids, free, used, open: state.capacity.is_some(), capacity, next: state.next_id() }
     }
-    /// How many rows there are.
+    /// The number of rows.
     pub fn capacity(&self) -> u32 {
         self.capacity
     }
-    /// The first rows that hold particles, or did: those behind them are free.
+    /// The number of rows that are or were in use: those after them are free.
     pub fn used(&self) -> u32 {
         self.used
     }
@@ -44,7 +44,7 @@ impl Rows {
     pub fn are_open(&self) -> bool {
         self.open
     }
-    /// The id of the particle in a row; what is no row has none.
+    /// The id of the particle in a row; an index that is no row is returned unchanged.
     pub fn id(&self, row: u32) -> u32 {
         self.ids.as_ref().map_or(row, |ids| ids.get(row as usize).copied().unwrap_or(NONE))
     }
@@ -56,7 +56,7 @@ impl Rows {
     pub fn is_free(&self, row: u32) -> bool {
         self.free.contains(&row)
     }
-    /// How many rows are free.
+    /// The number of free rows.
     pub fn room(&self) -> usize {
         self.free.len()
     }
@@ -64,7 +64,7 @@ impl Rows {
     pub fn next(&self) -> u32 {
         self.next
     }
-    /// The lowest free rows, so many of them.
+    /// The lowest `count` free rows.
     pub fn lowest(&self, count: usize) -> Vec<u32> {
         self.free.iter().copied().take(count).collect()
     }
@@ -101,7 +101,7 @@ impl<B: Backend> Simulation<B> {
     pub fn row_of(&self, id: u32) -> Option<u32> {
         self.rows.row(id)
     }
-    /// The name by which messages know the particle in a row.
+    /// The id of the particle in a row, for messages.
     pub(super) fn named(&self, row: u32) -> u32 {
         match self.rows.id(row) {
             NONE => row,

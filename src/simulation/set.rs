@@ -13,7 +13,7 @@ use crate::motion::{self, Motion};
 use crate::settings::nearest;
 use crate::visit::{self, LINK};
 
-/// The way out where a setting needs another plan.
+/// The remedy where a setting requires another plan.
 const ANEW: &str = "make another simulation of it: a setup with the state of `snapshot()`";
 
 impl<B: Backend> Simulation<B> {
@@ -30,8 +30,8 @@ impl<B: Backend> Simulation<B> {
     ///
     /// # Errors
     /// [`Error::Setting`] and [`Error::Scene`] when there is no such force or setting, with the nearest name; when the value is of
-    /// another kind or out of its range, with the number; when the setting changes what kernels do, and not only their numbers. Nothing
-    /// has changed then.
+    /// another kind or out of its range, with the number; when the setting changes the kernels, and not only their numbers. Nothing has
+    /// changed then.
     pub fn set(&mut self, force: &str, setting: &str, to: impl Into<Change>) -> Result<(), Error> {
         let place = self.place(force)?;
         let mut forces = self.setup.forces.clone();
@@ -39,11 +39,11 @@ impl<B: Backend> Simulation<B> {
         let setup = Setup { forces, ..self.setup.clone() };
         self.exchange(setup, (*self.problem).clone(), &format!("`{setting}` of `{force}`"))
     }
-    /// Puts a motion in place of the one of its name, from the next step on: particles and obstacles with it move to their new poses. Keys are at
+    /// Replaces the motion of the same name, from the next step on: particles and obstacles with it move to their new poses. Keys are at
     /// times of the run, as at its start.
     ///
     /// # Errors
-    /// [`Error::Scene`] when there is no motion of that name, or the new one makes no sense. Nothing has changed then.
+    /// [`Error::Scene`] when there is no motion of that name, or the new one is invalid. Nothing has changed then.
     pub fn set_motion(&mut self, motion: Motion) -> Result<(), Error> {
         let mut motions = self.problem.motions.as_ref().clone();
         let names: Vec<&str> = motions.iter().map(|motion| motion.name.as_str()).collect();
@@ -63,7 +63,7 @@ impl<B: Backend> Simulation<B> {
         self.ties.lead(motions);
         Ok(())
     }
-    /// The place of a force by its name.
+    /// The index of a force, by its name.
     fn place(&self, name: &str) -> Result<usize, Error> {
         let names = names(&self.setup.forces);
         names.iter().position(|known| known == name).ok_or_else(|| {
@@ -72,7 +72,7 @@ impl<B: Backend> Simulation<B> {
             Error::Scene(format!("no force is called `{name}`{}; there are {there}", meant(name, &known)))
         })
     }
-    /// Goes on with other numbers in the same kernels.
+    /// Continues with other numbers in the same kernels.
     fn exchange(&mut self, setup: Setup, problem: Problem, what: &str) -> Result<(), Error> {
         setup.fluids()?;
         if setup.integrator.adaptive_step().is_some() {
@@ -104,7 +104,7 @@ impl<B: Backend> Simulation<B> {
             return refuse("changes the size or the contents of buffers that steps write");
         }
         self.unrepeatable();
-        // What has been encoded or submitted keeps the tables that it has.
+        // Steps that have been encoded or submitted keep their tables.
         tables.iter().for_each(|name| self.backend.forget(name));
         self.start = self.backend.compile(&plans.start)?;
         self.step = self.backend.compile(&plans.step)?;
@@ -128,17 +128,17 @@ fn meant(name: &str, known: &[&str]) -> String {
     nearest(name, known.iter().copied()).map_or_else(String::new, |near| format!(" (did you mean `{near}`?)"))
 }
 
-/// A kernel by what is compiled of it.
+/// The inputs of a kernel's compilation.
 type Compiled<'a> = (&'a str, Vec<(&'static str, u64)>);
 
-/// What is compiled of all plans.
+/// The compiled kernels of all plans.
 fn kernels(plans: &Plans) -> BTreeSet<Compiled<'_>> {
     let passes = plans.all().flat_map(|plan| &plan.kernels).flat_map(|kernel| &kernel.passes);
     let constants = |list: &[(&'static str, f64)]| list.iter().map(|(name, value)| (*name, value.to_bits())).collect();
     passes.map(|pass| (pass.shader.text(), constants(&pass.constants))).collect()
 }
 
-/// The tables that have other contents, by name.
+/// The names of the tables whose contents differ.
 fn changed_tables(old: &Plans, new: &Plans) -> BTreeSet<String> {
     let of = |plans: &Plans, name: &str| plans.all().find_map(|plan: &Plan| plan.table(name).cloned());
     let tables = new.all().flat_map(|plan| &plan.kernels).flat_map(|kernel| &kernel.tables);

@@ -40,20 +40,20 @@ pub struct Plans {
     pub step: Plan,
     /// Before and after the state is read.
     pub measure: (Plan, Plan),
-    /// Where all is carried over to other buffers: what a step is going to use is kept.
+    /// Before data is copied to other buffers: saves what the next step uses.
     pub keep: Plan,
-    /// Where a run continues: what time it is.
+    /// Where a run continues: sets the time.
     pub time: Plan,
     /// The list of neighbours that they share, if any.
     pub list: Option<ListShape>,
 }
 
 impl Plans {
-    /// All of them but what is kept and the time, which bind nothing that these do not.
+    /// All plans but `keep` and `time`, which bind nothing that these do not.
     pub fn all(&self) -> impl Iterator<Item = &Plan> + Clone {
         [&self.start, &self.step, &self.measure.0, &self.measure.1].into_iter()
     }
-    /// What is done once where a run continues; with what the last step kept, that is put back too.
+    /// The plan that runs once where a run continues; it also restores the restart data of the last step, if there is any.
     #[must_use]
     pub fn wake(&self, keeps: bool) -> Plan {
         let mut plan = self.time.clone();
@@ -65,7 +65,7 @@ impl Plans {
 }
 
 impl Setup {
-    /// A state in open space under some forces, in steps of `dt` by leapfrog; its fields say all else.
+    /// A state in open space under some forces, in steps of `dt` by leapfrog; change the fields for anything else.
     #[must_use]
     pub fn new(state: State, forces: Vec<Box<dyn Component>>, dt: f64) -> Self {
         let (bounds, solver) = (Bounds::default(), Solver::default());
@@ -74,14 +74,14 @@ impl Setup {
     /// Writes the plans for a machine.
     ///
     /// # Errors
-    /// When the setup makes no sense, or a shader does not compile.
+    /// When the setup is invalid, or a shader does not compile.
     pub fn plans(&self, machine: Machine) -> Result<Plans, Error> {
         if let Some(padded) = self.padded() {
             return padded.plans(machine);
         }
         self.plans_of(&self.problem(machine)?)
     }
-    /// The same for a problem of this setup.
+    /// Like [`Setup::plans`], for a problem of this setup.
     pub(super) fn plans_of(&self, problem: &Problem) -> Result<Plans, Error> {
         self.weigh(problem)?;
         let list = problem.list;
@@ -106,17 +106,17 @@ impl Setup {
         unwritten::check(&plans, &columns)?;
         Ok(plans)
     }
-    /// The same with free rows, where its state has a capacity and none of them yet.
+    /// The same setup with free rows, where its state has a capacity and no free rows yet.
     pub(super) fn padded(&self) -> Option<Self> {
         self.state.padded().map(|state| self.with_state(state))
     }
-    /// The same with another state.
+    /// The same setup with another state.
     #[must_use]
     pub fn with_state(&self, state: State) -> Self {
         let (forces, integrator) = (self.forces.clone(), self.integrator.clone());
         Self { state, forces, integrator, dt: self.dt, bounds: self.bounds, solver: self.solver }
     }
-    /// Rows that were free when a plan was first written for this run.
+    /// The number of rows that were free when a plan was first written for this run.
     pub(super) fn free(&self) -> u32 {
         let rows = u32::try_from(self.state.len()).unwrap_or(u32::MAX);
         let kept =
@@ -125,7 +125,7 @@ impl Setup {
         let kept = kept.map(|used| rows.saturating_sub(*used as u32));
         kept.unwrap_or_else(|| self.state.free_rows())
     }
-    /// Refuses what does not go with steps of different lengths.
+    /// Refuses components that require a fixed time step, where steps are adaptive.
     pub(super) fn bear(&self) -> Result<(), Error> {
         if let Some(why) = self.integrator.fixed_step() {
             return Err(Error::Scene(format!("steps cannot be adaptive: {why}; choose leapfrog, or a fixed dt")));
@@ -135,7 +135,7 @@ impl Setup {
             None => Ok(()),
         }
     }
-    /// Refuses a tree whose nodes single precision cannot hold.
+    /// Refuses a tree whose nodes do not fit single precision.
     fn weigh(&self, problem: &Problem) -> Result<(), Error> {
         let walks = self.forces.iter().flat_map(|force| force.laws()).any(|law| law.tree(problem).is_some());
         let mass: f64 = self.state.mass().iter().sum();
@@ -149,10 +149,10 @@ impl Setup {
         }
         Ok(())
     }
-    /// What plans are written for.
+    /// The problem for which plans are written.
     ///
     /// # Errors
-    /// When the setup makes no sense.
+    /// When the setup is invalid.
     pub fn problem(&self, machine: Machine) -> Result<Problem, Error> {
         if let Some(padded) = self.padded() {
             return padded.problem(machine);
@@ -175,7 +175,7 @@ impl Setup {
     /// The columns that all simulations have, those that components declare, and those that the state brings along.
     ///
     /// # Errors
-    /// [`Error::Scene`] when two declarations of one name differ, or one makes no sense.
+    /// [`Error::Scene`] when two declarations of one name differ, or a declaration is invalid.
     pub fn columns(&self) -> Result<Columns, Error> {
         let forces = self.forces.iter().flat_map(|force| force.columns());
         let integrator = self.integrator.columns();
@@ -199,7 +199,7 @@ impl Setup {
         }
         Columns::with(all)
     }
-    /// Whether forces do something once, before the first step.
+    /// Whether forces have kernels that run once, before the first step.
     pub(super) fn begins(&self, problem: &Problem) -> Result<bool, Error> {
         let mut plan = Plan::default();
         self.forces.iter().try_for_each(|force| force.stage(Stage::Start, &mut plan, problem))?;
@@ -215,7 +215,7 @@ impl Setup {
         let problem = self.problem(Machine::HOST)?;
         let mut media = self.forces.iter().map(|force| Ok(force.resolved(&problem)?.fluid));
         let Some(fluid) = media.find_map(Result::<_, Error>::transpose).transpose()? else { return Ok(None) };
-        // Inactive particles are in no way; a scene has the ids of those last.
+        // Inactive particles do not count; a scene gives them the last ids.
         let living: Vec<usize> = (0..self.state.len()).filter(|id| self.state.is_active(*id)).collect();
         let of = |list: &[DVec3]| -> Vec<DVec3> { living.iter().map(|id| list[*id]).collect() };
         let initial_projection::Projected { places, moved } = initial_projection::projected(self, &problem)?;
@@ -243,11 +243,11 @@ impl Setup {
     /// The particles that the initial projection moves out of obstacles, and by how much \[length\].
     ///
     /// # Errors
-    /// When the setup makes no sense.
+    /// When the setup is invalid.
     pub fn put_out(&self) -> Result<Vec<(usize, f64)>, Error> {
         Ok(initial_projection::projected(self, &self.problem(Machine::HOST)?)?.moved)
     }
-    /// Refuses settings that make no sense, and two fluids: each would take all particles for its own.
+    /// Refuses invalid settings, and two fluids: each would contain all particles.
     pub(super) fn fluids(&self) -> Result<(), Error> {
         self.forces.iter().try_for_each(|force| force.check(&self.bounds))?;
         let count = self.forces.iter().filter(|force| force.properties().makes_fluid).count();
@@ -258,7 +258,7 @@ impl Setup {
         }
         Ok(())
     }
-    /// Refuses particles of a fluid that weigh nothing.
+    /// Refuses fluid particles without mass.
     pub(super) fn weighs(&self, problem: &Problem) -> Result<(), Error> {
         for force in self.forces.iter().filter(|force| force.properties().makes_fluid) {
             if let Some(fluid) = force.resolved(problem)?.fluid {
@@ -268,7 +268,7 @@ impl Setup {
         }
         Ok(())
     }
-    /// Refuses a state that lacks a column that has no initial value, and numbers that are none.
+    /// Refuses a state without a column that has no initial value, and numbers that are not finite.
     fn complete(&self) -> Result<(), Error> {
         for column in self.columns()?.state() {
             let name = &column.name;
@@ -289,7 +289,7 @@ impl Setup {
         }
         Ok(())
     }
-    /// The largest values of the columns that forces limit, and of which particle; no smaller than those that are known.
+    /// The largest values of the columns that forces limit, with their particles; not smaller than the known ones.
     pub(super) fn largest(&self, known: &BTreeMap<&'static str, Largest>) -> BTreeMap<&'static str, Largest> {
         let mut all = known.clone();
         for limit in self.forces.iter().flat_map(|force| force.properties().largest) {
@@ -304,7 +304,7 @@ impl Setup {
         }
         all
     }
-    /// Refuses particles with numbers that are none, and columns that are not complete.
+    /// Refuses particles with numbers that are not finite, and incomplete columns.
     pub(super) fn particles(&self) -> Result<(), Error> {
         let state = &self.state;
         let (position, velocity, mass, size) = (state.position(), state.velocity(), state.mass(), state.size());
@@ -325,7 +325,7 @@ impl Setup {
         let largest = self.largest(&BTreeMap::new());
         limited(&self.forces, &largest)
     }
-    /// Whether no particle changes what accelerates another.
+    /// Whether every particle is accelerated independently of all others.
     pub(super) fn accelerates_each_alone(&self) -> bool {
         let alone = |force: &dyn Component| {
             let laws = force.laws();
@@ -333,16 +333,16 @@ impl Setup {
         };
         self.forces.iter().all(|force| alone(force.as_ref()))
     }
-    /// Whether links may change as it runs.
+    /// Whether links may break during the run.
     #[must_use]
     pub fn breaks(&self) -> bool {
         self.forces.iter().any(|force| force.properties().breaks_bonds)
     }
-    /// The number of particles, if all is well.
+    /// The number of particles, if the setup is valid.
     ///
     /// # Errors
     /// [`Error::Scene`] when there are none or too many, when dt is not a positive number, when a particle has a number
-    /// that is none, or a negative mass, when there can be no such box, or when it does not hold them.
+    /// that is not finite, or a negative mass, when the box is invalid, or when particles are outside it.
     pub fn check(&self) -> Result<u32, Error> {
         let state = &self.state;
         let State { links, held, motions, births, drains, .. } = state;
@@ -390,18 +390,18 @@ impl Setup {
     }
 }
 
-/// The largest value of a column, and the particle that has it.
+/// The largest value of a column, and its particle.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Largest {
     value: f64,
     particle: usize,
 }
 
-/// Refuses values that are above what a force can serve.
+/// Refuses values above the limit of a force.
 pub(super) fn limited(forces: &[Box<dyn Component>], largest: &BTreeMap<&'static str, Largest>) -> Result<(), Error> {
     for limit in forces.iter().flat_map(|force| force.properties().largest) {
         let Some(Largest { value, particle }) = largest.get(limit.column) else { continue };
-        // As the device holds both.
+        // Compared in single precision, as on the device.
         #[expect(clippy::cast_possible_truncation, reason = "rounding to f32 is what the device does")]
         if (*value as f32) > limit.value as f32 {
             return Err(Error::Scene(format!(

@@ -5,38 +5,38 @@ use crate::error::Error;
 use crate::integrators::{SOLVE_REPORT, SOLVE_REPORT_WORDS, SOLVE_STATE};
 use crate::kernel::{Array, Backend};
 
-/// What became of a solve.
+/// The outcome of a solve.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Outcome {
-    /// It is as good as was asked.
+    /// The tolerance was reached.
     Converged,
-    /// The matrix was not positive along a direction, or a number stopped being one.
+    /// The matrix was not positive along a direction, or a number was not finite.
     BrokenDown,
-    /// It would have taken more iterations, or more solves.
+    /// More iterations, or more solves, would have been required.
     RanOut,
 }
 
-/// What became of the implicit solves of a run so far. A step is one solve, however many linear ones it takes.
+/// Statistics of the implicit solves of a run. A step counts as one solve, however many linear ones it takes.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Solves {
-    /// Steps that were solved.
+    /// The number of solves.
     pub solves: u32,
-    /// How many of them did not converge.
+    /// The number of solves that did not converge.
     pub failures: u32,
-    /// The first of those, counted from 0.
+    /// The first step that did not converge, counted from 0.
     pub first_failure: Option<u32>,
-    /// The most iterations of conjugate gradients in one step.
+    /// The largest number of conjugate-gradient iterations in one step.
     pub most_iterations: u32,
-    /// Those of the last step.
+    /// The iterations of the last step.
     pub iterations: u32,
-    /// What became of it.
+    /// The outcome of the last step.
     pub outcome: Outcome,
-    /// The last residual that was looked at, as a part of the first one of its step.
+    /// The last residual that was computed, relative to the first one of its step.
     pub residual: f64,
 }
 
 impl<B: Backend> Simulation<B> {
-    /// What became of the implicit solves so far; none where nothing is solved by iterations.
+    /// Statistics of the implicit solves so far; `None` where there are no iterative solves.
     ///
     /// # Errors
     /// Errors of reading.

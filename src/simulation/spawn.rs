@@ -23,7 +23,7 @@ impl<B: Backend> Simulation<B> {
     ///
     /// # Errors
     /// [`Error::Scene`] when particles are linked, fixed or yet to be spawned, lack a column without an initial value, have one that is
-    /// unknown, or a number that is none; when a law does not serve removed particles. [`Error::Limit`] when a device does not hold so
+    /// unknown, or a number that is not finite; when a law does not serve removed particles. [`Error::Limit`] when a device does not hold so
     /// many rows. Nothing has changed then.
     pub async fn spawn(&mut self, new: &State) -> Result<Vec<u32>, Error> {
         self.welcome(new)?;
@@ -101,9 +101,9 @@ impl<B: Backend> Simulation<B> {
             self.backend.write_at(ACCELERATION.name, place, &four(DVec4::ZERO))?;
             self.backend.write_at(LIFE.name, place, &Array::Uint(vec![Life::Removed.word()]))?;
         }
-        // The list of neighbours sees by itself that they take no part.
+        // The neighbour list detects by itself that they are no longer active.
         self.rows.clear(&rows);
-        // Where each is accelerated alone, accelerations stay.
+        // Where particles are accelerated independently, accelerations remain valid.
         self.begun &= self.setup.accelerates_each_alone();
         Ok(())
     }
@@ -160,7 +160,7 @@ impl<B: Backend> Simulation<B> {
             return Ok(());
         }
         let life = self.life().await?;
-        // A particle that goes straight on after its birth does so by its row.
+        // A particle that moves at constant velocity after its spawn is found by its row.
         let guided: BTreeSet<u32> = self.ties.guided().collect();
         let gone = (0..).zip(&life).filter(|(row, life)| **life == Life::Removed && !guided.contains(row));
         let rows: Vec<u32> = gone.map(|(row, _)| row).filter(|row| !self.rows.is_free(*row)).collect();
@@ -198,7 +198,7 @@ impl<B: Backend> Simulation<B> {
         }
         self.at_rows(ACCELERATION.name, rows, &Array::Vec4(vec![DVec4::ZERO; rows.len()]), 1)
     }
-    /// Writes elements at rows, as many in one go as stand side by side.
+    /// Writes elements at rows, contiguous ones together.
     fn at_rows(&mut self, field: &str, rows: &[u32], elements: &Array, each: usize) -> Result<(), Error> {
         let mut first = 0;
         while first < rows.len() {
@@ -212,8 +212,8 @@ impl<B: Backend> Simulation<B> {
         }
         Ok(())
     }
-    /// Says to the list of neighbours that rows have got other particles: no pair of theirs is one that was there before, and the list is
-    /// rebuilt. Rows from `before` on have never been in it.
+    /// Marks rows in the neighbour list as reassigned to other particles: their pairs have no earlier history, and the list is rebuilt.
+    /// Rows from `before` on have never been in it.
     fn changed_hands(&mut self, rows: &[u32], before: u32) -> Result<(), Error> {
         if self.list.is_none() {
             return Ok(());

@@ -11,7 +11,7 @@ use crate::motion::{Held, Motion};
 use crate::state::State;
 use crate::visit::LINK;
 
-/// All of a state that is no column.
+/// All parts of a state that are not columns.
 pub(super) struct Ties {
     links: Links,
     held: Vec<Held>,
@@ -21,17 +21,17 @@ pub(super) struct Ties {
 }
 
 impl Ties {
-    /// That of a state.
+    /// The ties of a state.
     pub fn of(state: &State) -> Self {
         let State { held, motions, births, drains, .. } = state;
         let (links, held, motions) = (state.all_links().into_owned(), held.clone(), motions.clone());
         Self { links, held, motions, births: births.clone(), drains: drains.clone() }
     }
-    /// Has other motions from now on.
+    /// Replaces the motions from now on.
     pub fn lead(&mut self, motions: Vec<Motion>) {
         self.motions = motions;
     }
-    /// Where particles are removed.
+    /// The drains.
     pub fn drains(&self) -> &[Drain] {
         &self.drains
     }
@@ -43,11 +43,11 @@ impl Ties {
             self.links.joints.iter().map(|joint| joint.ids).chain(self.links.triangles.iter().copied()).flatten();
         springs.chain(rods).chain(corners).chain(self.held.iter().map(|held| held.id)).collect()
     }
-    /// The rows of particles that go straight on after their births.
+    /// The rows of particles that move at constant velocity after they are spawned.
     pub fn guided(&self) -> impl Iterator<Item = u32> {
         self.births.iter().filter(|birth| birth.guided > 0.0).map(|birth| birth.id)
     }
-    /// Gives it to a state; the links are as they were at the start, with springs that had broken before.
+    /// Adds it to a state; the links are those of the start, including springs that had broken before.
     pub fn give(&self, state: &mut State) {
         (state.links, state.held) = (self.links.clone(), self.held.clone());
         (state.motions, state.births, state.drains) = (self.motions.clone(), self.births.clone(), self.drains.clone());
@@ -55,7 +55,7 @@ impl Ties {
 }
 
 impl<B: Backend> Simulation<B> {
-    /// The links as they are now, where springs may break; nothing where none can.
+    /// The present links, where springs may break; `None` where none can.
     ///
     /// # Errors
     /// As for [`Simulation::links`].
@@ -71,7 +71,7 @@ impl<B: Backend> Simulation<B> {
         self.settle().await?;
         self.links_now().await
     }
-    /// The same, whether the list had room or not.
+    /// Like [`Self::links`], whether or not the list had enough capacity.
     pub(super) async fn links_now(&mut self) -> Result<Links, Error> {
         if !self.breaks {
             return Ok(self.ties.links.clone());

@@ -6,8 +6,8 @@ use super::Plans;
 use crate::error::Error;
 use crate::kernel::{ALARM, Access, Columns, Role};
 
-/// Refuses a user's shader that reads what neither the state holds nor any kernel of the plans writes: a slip of the pen, or a
-/// column that no law computes.
+/// Refuses a user's shader that reads a field that neither the state holds nor any kernel of the plans writes: a misspelt name, or a column
+/// that no law computes.
 pub(super) fn check(plans: &Plans, columns: &Columns) -> Result<(), Error> {
     let kernels = || plans.all().flat_map(|plan| &plan.kernels);
     if kernels().all(|kernel| kernel.passes.iter().all(|pass| pass.shader.trusted())) {
@@ -19,7 +19,7 @@ pub(super) fn check(plans: &Plans, columns: &Columns) -> Result<(), Error> {
         for pass in kernel.passes.iter().filter(|pass| !pass.shader.trusted()) {
             for (name, binding) in pass.bindings().filter(|(_, binding)| binding.access == Access::Read) {
                 let table = kernel.tables.iter().any(|(table, _)| table == name);
-                // What goes by another name in the shader is a visit's own: a cell list, which a kernel before this one fills.
+                // A binding under another name in the shader belongs to a visit: a cell list, which an earlier kernel fills.
                 if table || held(name) || written.contains(name) || name == ALARM.name || name != binding.name {
                     continue;
                 }

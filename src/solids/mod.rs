@@ -19,14 +19,14 @@ pub enum Solid {
     Capsule(DVec3, f64),
 }
 
-/// A solid with its place, as pictures show it.
+/// A solid with its position, for pictures.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Standing {
-    /// What it is.
+    /// The solid.
     pub solid: Solid,
-    /// Where its middle is at home; of a plane a point on it \[length\].
+    /// The initial position of its centre; of a plane a point on it \[length\].
     pub position: DVec3,
-    /// The name of the motion that it goes along with; nothing where it stands still.
+    /// The name of the motion that it follows; empty if it does not move.
     pub motion: String,
     /// Whether it is a container: pictures show its edges at most, for faces would hide what is in it.
     pub inside: bool,
@@ -61,7 +61,7 @@ impl Solid {
             }
         }
     }
-    /// As shaders know it: its radius, sides, and normal or axis; 0 where it has none.
+    /// Its parameters for shaders: its radius, sides, and normal or axis; 0 where it has none.
     #[must_use]
     pub fn parts(self) -> (f64, DVec3, DVec3) {
         match self {
@@ -71,7 +71,7 @@ impl Solid {
             Self::Capsule(axis, radius) => (radius, DVec3::ZERO, axis),
         }
     }
-    /// The place of its word among [`SHAPES`].
+    /// Its index in [`SHAPES`].
     #[must_use]
     pub fn number(self) -> u32 {
         match self {

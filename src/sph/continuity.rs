@@ -7,12 +7,12 @@ use crate::error::Error;
 use crate::kernel::{Column, Kind, Problem, Scalar, World};
 use crate::visit::{Candidate, Law, Outcome, Particle};
 
-/// How the density of a fluid follows it.
+/// The options of a density that is a state.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Continuity {
     /// δ of the diffusion (Molteni & Colagrossi 2009).
     pub diffusion: f64,
-    /// What the diffusion leaves alone: the density of a fluid at rest in this weight \[length / time²\].
+    /// The part that the diffusion leaves unchanged: the hydrostatic density of a fluid at rest under this acceleration \[length / time²\].
     pub weight: DVec3,
 }
 
@@ -28,10 +28,10 @@ pub fn columns(rest: f64) -> Vec<Column> {
     ]
 }
 
-/// The law that finds how fast density changes, where particles are and as they move.
+/// The law that computes the rate of the density, at the current positions and velocities.
 ///
 /// # Errors
-/// When the range is none.
+/// When the range is invalid.
 pub fn rate(medium: &Medium, continuity: Continuity, problem: &Problem) -> Result<Law, Error> {
     let candidate = Candidate {
         particle: crate::shader!("sph/dense.wgsl"),

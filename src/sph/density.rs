@@ -10,7 +10,7 @@ use crate::visit::{Candidate, Law, Outcome, Particle};
 /// The law that sums it, for all particles that are not fixed.
 ///
 /// # Errors
-/// When the range is none.
+/// When the range is invalid.
 pub fn density(medium: &Medium, problem: &Problem) -> Result<Law, Error> {
     let search = medium.search(Candidate::STILL, &[], problem)?;
     let (smoothed, problem) = (medium.smoothed(), problem.clone());

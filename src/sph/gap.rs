@@ -1,16 +1,16 @@
-//! How far from its wall a fluid is at rest.
+//! The distance of a fluid at rest from its wall.
 
 use super::Smoothing;
 
-/// How far the first layer of a fluid's lattice stands from the first of `layers` layers of walls \[spacings\], such that it is at
-/// its density of rest: flat layers, sampled on the same lattice, of particles that weigh as much as the fluid whose place
-/// they take (Akinci et al. 2012). By bisection on the sum over the lattice. One layer is about right for a support of two
-/// spacings alone, where the second layer of the fluid does not see it: for wider ones as many layers as the support has
-/// spacings leave less to be wrong there (after Adami, Hu & Adams 2012).
+/// The distance of the first layer of a fluid's lattice from the first of `layers` layers of walls \[spacings\] at which it has its rest
+/// density: flat layers, sampled on the same lattice, of particles with the mass of the fluid that they replace (Akinci et al. 2012). By
+/// bisection on the sum over the lattice. One layer is accurate only for a support of two spacings, where it is out of range of the second
+/// layer of the fluid: for wider supports the error is smaller with as many layers as the support has spacings (after Adami, Hu & Adams
+/// 2012).
 #[must_use]
 pub fn gap(smoothing: Smoothing, support: f64, layers: u32, dimensions: u32) -> f64 {
     let reach = whole(support.ceil());
-    // What a layer adds that is so far away, but for the constant of the kernel, which is in all of them.
+    // The contribution of a layer at this distance, without the constant of the kernel, which is common to all.
     let layer = |height: f64| {
         let mut sum = 0.0;
         for x in -reach..=reach {
@@ -24,7 +24,7 @@ pub fn gap(smoothing: Smoothing, support: f64, layers: u32, dimensions: u32) -> 
     let layers = i32::try_from(layers.max(1)).unwrap_or(i32::MAX).min(reach + 1);
     let lattice: f64 = (-reach..=reach).map(|k| layer(f64::from(k))).sum();
     let fluid: f64 = (0..=reach).map(|k| layer(f64::from(k))).sum();
-    // How dense walls are, layer by layer: their volumes are one over that.
+    // The number densities of walls, layer by layer, whose inverses are the volumes.
     let densities: Vec<f64> = (0..layers).map(|k| (0..layers).map(|j| layer(f64::from(k - j))).sum()).collect();
     let walls = |gap: f64| {
         let of = |(k, density): (i32, &f64)| lattice / density * layer(gap + f64::from(k));

@@ -1,6 +1,6 @@
-//! How long a step of a fluid may be (Monaghan 1992; Morris, Fox & Zhu 1997; Ihmsen et al. 2014):
-//! dt = min( C √(s / |a|), C s / (c + |μ| + 0.6 α c), s² / (8 ν), 0.4 C d / |v| ), with s the smoothing length, which is half of the
-//! support, and d the spacing. Where the speed of sound is given, speeds themselves are no limit.
+//! The dt criteria of a fluid (Monaghan 1992; Morris, Fox & Zhu 1997; Ihmsen et al. 2014): dt = min( C √(s / |a|), C s / (c + |μ| + 0.6 α
+//! c), s² / (8 ν), 0.4 C d / |v| ), with s the smoothing length, which is half of the support, and d the spacing. Where the speed of sound
+//! is given, there is no speed criterion.
 
 use std::sync::Arc;
 
@@ -13,14 +13,14 @@ use crate::kernel::{
 };
 use crate::visit::{Candidate, Law, Outcome, Particle};
 
-/// How far a particle may go in a step, in spacings, where no speed of sound limits it (Courant, Friedrichs & Lewy 1928; 0.4 as
-/// Bender & Koschier 2015 have it).
+/// The maximum distance of a particle in a step, in spacings, where there is no speed of sound (Courant, Friedrichs & Lewy 1928; 0.4 as in
+/// Bender & Koschier 2015).
 pub const COURANT: f64 = 0.4;
 
-/// How fast neighbours come or go, at most \[length / time\].
+/// The maximum speed at which neighbours approach or separate \[length / time\].
 const CLOSING: Field<f32> = Field::new("closing");
 
-/// What limits the steps of a fluid, beside accelerations.
+/// The quantities that limit the time step of a fluid, besides accelerations.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Limits {
     /// The speed of sound \[length / time\]; none where the fluid has none: then speeds are a limit.
@@ -29,7 +29,7 @@ pub struct Limits {
     pub alpha: f64,
 }
 
-/// What the step criteria of all particles are multiplied by.
+/// The factors of the dt criteria of all particles.
 #[derive(Clone, Copy)]
 struct Shares {
     acceleration: f64,
@@ -39,17 +39,17 @@ struct Shares {
     speed: f64,
 }
 
-/// How many steps viscosity requires in a longest one; nothing where steps are all alike.
+/// The number of steps per longest step that viscosity requires; `None` with a fixed time step.
 #[must_use]
 pub fn viscous_steps(medium: &Medium, viscosity: f64, problem: &Problem) -> Option<f64> {
     let length = 0.5 * medium.range();
     problem.adaptive_step.map(|_| problem.dt * 8.0 * viscosity / (length * length))
 }
 
-/// Adds kernels that fill [`STEP_CRITERIA`]; none where steps are all alike.
+/// Adds kernels that fill [`STEP_CRITERIA`]; none with a fixed time step.
 ///
 /// # Errors
-/// When the range is none, or a shader does not compile.
+/// When the range is invalid, or a shader does not compile.
 pub fn limits(medium: &Medium, limits: Limits, plan: &mut Plan, problem: &Problem) -> Result<(), Error> {
     let Some(adaptive_step) = problem.adaptive_step else { return Ok(()) };
     let (length, longest) = (0.5 * medium.range(), problem.dt / adaptive_step.courant);

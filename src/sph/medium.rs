@@ -8,14 +8,14 @@ use crate::kernel::{Problem, Source};
 use crate::neighbors::Grid;
 use crate::visit::{Candidate, Search};
 
-/// A fluid: its density at rest, how compressible it is, and how its particles smooth it.
+/// A fluid: its rest density, its compressibility, and its smoothing.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Medium {
     /// The density at rest \[mass / length^D\].
     pub density: f64,
-    /// How far apart particles are at rest, on a cubic lattice \[length\].
+    /// The spacing of particles at rest, on a cubic lattice \[length\].
     pub spacing: f64,
-    /// How far the kernel reaches, in spacings.
+    /// The radius of the kernel, in spacings.
     pub support: f64,
     /// The kernel.
     pub smoothing: Smoothing,
@@ -29,7 +29,7 @@ pub struct Medium {
     pub dimensions: u32,
 }
 
-/// What a fluid's searches load of a neighbour: velocity, density and pressure, too.
+/// The data of a neighbour that searches of a fluid load: velocity, density and pressure, too.
 pub(super) const FLOWING: Candidate =
     Candidate { particle: crate::shader!("sph/flowing.wgsl"), broadcast: crate::shader!("sph/flowing_broadcast.wgsl") };
 
@@ -48,7 +48,7 @@ impl Smoothed {
     pub fn kernel(&self, r: DVec3) -> f64 {
         self.weight * self.smoothing.profile(r.length() / self.range)
     }
-    /// What times r is the gradient of W at a particle r away: W′(r) / r.
+    /// The factor of r in the gradient of W at distance r: W′(r) / r.
     #[must_use]
     pub fn gradient(&self, r: DVec3) -> f64 {
         self.slope * self.smoothing.profile_slope(r.length() / self.range)
@@ -70,7 +70,7 @@ impl Medium {
             )))
         })
     }
-    /// How far the kernel reaches \[length\].
+    /// The radius of the kernel \[length\].
     #[must_use]
     pub fn range(&self) -> f64 {
         self.support * self.spacing
@@ -126,7 +126,7 @@ impl Medium {
     /// The grid in which neighbours are found.
     ///
     /// # Errors
-    /// [`Error::Scene`] when the range is none.
+    /// [`Error::Scene`] when the range is invalid.
     pub fn grid(&self, problem: &Problem) -> Result<Grid, Error> {
         Grid::apart(self.range(), problem)
     }
@@ -140,7 +140,7 @@ impl Medium {
         let (grid, files, constants) = (self.grid(problem)?, self.files(&[]), self.constants());
         Ok(Search { grid, candidate, sorted: sorted.to_vec(), files, constants, fixed: false })
     }
-    /// What a search of the fluid is made of, with such files of its own.
+    /// The files of a search of the fluid, with these files of its own.
     pub(super) fn files(&self, own: &[Source]) -> Vec<Source> {
         [&[self.smoothing.source(), crate::shader!("sph/medium.wgsl")], own].concat()
     }

@@ -1,5 +1,5 @@
-//! Fluids: smoothed particle hydrodynamics. The quantities, kernels and searches of a step; which of them,
-//! and in which order, is for the forces to say.
+//! Fluids: smoothed particle hydrodynamics. This module provides the quantities, kernels and searches of a step; forces select and order
+//! them.
 
 mod continuity;
 mod density;
@@ -38,14 +38,14 @@ pub use xsph::xsph;
 
 use crate::kernel::Field;
 
-/// How dense the fluid is around a particle \[mass / length³, or mass / length² in two dimensions\]; of walls it says nothing.
+/// The density of the fluid at a particle \[mass / length³, or mass / length² in two dimensions\]; undefined for walls.
 pub const DENSITY: Field<f32> = Field::new("density");
-/// How fast that changes, where it is a state: [`rate`].
+/// Its rate, where it is a state: [`rate`].
 pub(crate) const DENSITY_RATE: Field<f32> = Field::new("density_rate");
 /// The pressure, where it is solved for \[mass / (length time²), or mass / time² in two dimensions\]; of walls it is 0.
 pub const PRESSURE: Field<f32> = Field::new("pressure");
-/// What a neighbour is asked for, in the order of the cell list: density, which is 0 for walls; pressure over its square; internal
-/// energy per unit mass.
+/// The data of a neighbour, in the order of the cell list: density, which is 0 for walls; pressure over its square; internal energy per
+/// unit mass.
 pub(crate) const FLOW: &str = "flow";
-/// Which way the surface is, in the order of the cell list.
+/// The surface normal, in the order of the cell list.
 pub(crate) const NORMAL: &str = "normal";

@@ -12,7 +12,7 @@ pub(super) struct Nearby<'a> {
     positions: &'a [DVec3],
     bounds: &'a Bounds,
     range: f64,
-    /// How many cells there are along an axis that is periodic, else 0.
+    /// The number of cells along a periodic axis, otherwise 0.
     around: [i64; 3],
     order: Vec<usize>,
     cells: HashMap<[i64; 3], Range<usize>>,

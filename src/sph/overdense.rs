@@ -1,4 +1,4 @@
-//! How far a fluid that is too dense must move, until it is at rest.
+//! The minimum displacement of an over-dense fluid before it is at rest.
 
 use std::collections::BTreeMap;
 
@@ -11,12 +11,12 @@ const SURFACE: f64 = 0.9;
 /// The parts of the longest side, at most.
 const FINEST: f64 = 65536.0;
 
-/// How far the fastest particle must move, at least, so that none is too dense any more \[spacings\]; particles are places, masses and densities.
+/// The minimum displacement of the fastest particle after which none is too dense \[spacings\]; particles are positions, masses and densities.
 ///
-/// What is at a density ρ takes the volume m / ρ, and m / ρ₀ at rest: in a part of space the fluid lacks Σ m (1/ρ₀ − 1/ρ). That much
-/// leaves by the part's faces, of an area A, whatever happens inside (Gauss): somewhere by Σ / A, or more. Parts are the box around
-/// the fluid, and what comes of dividing it into 2, 4, 8, … along its longest side and as many as make cubes along the others; what
-/// walls close of their faces only makes the way longer.
+/// Matter of density ρ has the volume m / ρ, and m / ρ₀ at rest: a region lacks the volume Σ m (1/ρ₀ − 1/ρ). This volume leaves through its
+/// faces, of area A, whatever happens inside (Gauss): somewhere by Σ / A, or more. The regions are the box around the fluid, and its
+/// divisions into 2, 4, 8, … along its longest side and into cubes along the others; faces that are closed by walls only increase the
+/// displacement.
 pub(super) fn thrust(medium: &Medium, particles: &[(DVec3, f64, f64)]) -> f64 {
     let flat = medium.dimensions == 2;
     let places = || particles.iter().map(|(x, ..)| *x);

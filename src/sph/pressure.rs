@@ -8,25 +8,25 @@ use crate::error::Error;
 use crate::kernel::{ACCELERATION, Problem, Scalar, World};
 use crate::visit::{Law, Outcome, Particle};
 
-/// How a fluid rubs.
+/// The viscosities of a fluid.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Friction {
     /// α of the artificial viscosity (Monaghan 1992).
     pub alpha: f64,
     /// The kinematic viscosity ν (Morris, Fox & Zhu 1997) \[length² / time\].
     pub viscosity: f64,
-    /// How much of both walls have: 0 lets slip.
+    /// The part of both that acts at walls: 0 for free slip.
     pub wall: f64,
 }
 
-/// What pressure walls have.
+/// The pressure of walls.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Walls {
     /// That of the fluid particle at the wall (Akinci et al. 2012).
     Mirror,
-    /// That of the fluid around them, and what weighs between (Adami, Hu & Adams 2012).
+    /// That of the fluid around them, and the hydrostatic pressure in between (Adami, Hu & Adams 2012).
     Extrapolate {
-        /// The weight of the fluid \[length / time²\].
+        /// The gravity of the fluid \[length / time²\].
         weight: DVec3,
     },
 }
@@ -34,7 +34,7 @@ pub enum Walls {
 /// The law of accelerations, with the internal energy as the potential.
 ///
 /// # Errors
-/// When the range is none.
+/// When the range is invalid.
 pub fn pressure(medium: &Medium, friction: Friction, walls: Walls, problem: &Problem) -> Result<Law, Error> {
     let search = medium.search(FLOWING, &[FLOW], problem)?;
     let params = vec![
@@ -60,13 +60,13 @@ pub fn pressure(medium: &Medium, friction: Friction, walls: Walls, problem: &Pro
     Ok(Law { reciprocal: problem.held.is_empty() && friction.viscosity <= 0.0, ..law })
 }
 
-/// What flows of a particle: density, p / ρ² and energy; 0 of walls.
+/// The flow variables of a particle: density, p / ρ² and energy; 0 for walls.
 pub(super) fn flow(of: &Particle) -> DVec3 {
     of.vector(FLOW).unwrap_or_default().truncate()
 }
 
-/// What times a mass and the slope of the kernel is what that mass does to a particle, with r from the latter to the former; states are
-/// density, p / ρ² and energy.
+/// The factor of a mass and of the kernel's slope in the acceleration by that mass, with r from the accelerated particle to the mass;
+/// states are density, p / ρ² and energy.
 fn push(
     medium: &Medium,
     friction: Friction,

@@ -1,26 +1,26 @@
-//! How fast a fluid at rest swings and creeps, at most: waves on its cubic lattice (von Neumann's analysis; for smoothed
+//! The maximum rates of oscillation and damping of a fluid at rest: waves on its cubic lattice (von Neumann's analysis; for smoothed
 //! particles Morris 1996). These are the stability limits of explicit steps.
 
 use glam::DVec3;
 
 use super::{Friction, Medium};
 
-/// The quickest of a fluid at rest.
+/// The fastest modes of a fluid at rest.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Rates {
-    /// ω of the quickest sound, c |Σ V ∇W sin(k·r)| \[1 / time\].
+    /// ω of the fastest sound wave, c |Σ V ∇W sin(k·r)| \[1 / time\].
     pub sound: f64,
     /// The largest rate at which viscosities damp \[1 / time\].
     pub friction: f64,
-    /// The part of a velocity that XSPH takes away in each step, at most, however long that is.
+    /// The maximum part of a velocity that XSPH removes in each step, whatever its length.
     pub drawn: f64,
 }
 
-/// So many waves from no wave number to the largest on a lattice, π / d: more of them change no digit that counts.
+/// The number of waves from wave number zero to the largest on a lattice, π / d: more of them change no significant digit.
 const WAVES: u32 = 64;
 
 impl Rates {
-    /// Of waves along an edge of the lattice and along its diagonals.
+    /// For waves along an edge of the lattice and along its diagonals.
     #[must_use]
     pub fn of(medium: &Medium, friction: Friction, xsph: f64) -> Self {
         let (volume, length) = (medium.volume(), 0.5 * medium.range());
@@ -51,7 +51,7 @@ impl Rates {
     }
 }
 
-/// All others of the lattice that are in reach of one in its middle.
+/// All other points of the lattice within range of a central one.
 fn lattice(medium: &Medium) -> Vec<DVec3> {
     let steps =
         || std::iter::successors(Some(-medium.support.ceil()), |x| (*x < medium.support.ceil()).then_some(x + 1.0));

@@ -1,4 +1,4 @@
-//! The kernels that smooth a fluid: W(r) = c profile(r / h) / h^D, with h the support, beyond which there is nothing.
+//! The smoothing kernels: W(r) = c profile(r / h) / h^D, with h the support, beyond which they vanish.
 
 use std::f64::consts::PI;
 
@@ -14,10 +14,10 @@ pub enum Smoothing {
 }
 
 impl Smoothing {
-    /// The scene's words for them.
+    /// Their names in scenes.
     pub const NAMES: &'static [&'static str] = &["cubic", "wendland"];
 
-    /// The kernel of a scene's word; the first for any other.
+    /// The kernel of a name in scenes; the first for any other.
     #[must_use]
     pub fn named(name: &str) -> Self {
         if name == "wendland" { Self::Wendland } else { Self::Cubic }

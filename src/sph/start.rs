@@ -10,52 +10,52 @@ use super::{COURANT, Medium, Smoothed, WallMass, gap, overdense};
 use crate::error::Error;
 use crate::kernel::Bounds;
 
-/// What Mach number a fluid may be given by the pressure it starts with. Its speed of sound is ten times that of the fastest
-/// flow that is expected (Monaghan 1994), so that what bursts at Mach 0.2 is twice as fast, and has four times the energy: with
-/// c = 10 √(2 g H) it leaps four times as high as it is deep.
+/// The maximum Mach number of the flow that the initial pressure of a fluid may drive. The speed of sound is ten times that of the fastest
+/// expected flow (Monaghan 1994), so that a burst at Mach 0.2 is twice as fast, and has four times the energy: with c = 10 √(2 g H) it
+/// rises to four times the depth.
 const MACH: f64 = 0.2;
-/// Two that are nearer than this \[spacings\] have hardly any pressure between them, whose gradient is none at no distance: they
-/// stay together forever.
+/// Two particles nearer than this \[spacings\] hardly repel each other, since the gradient of the kernel vanishes at distance zero: they
+/// never separate.
 const SAME_PLACE: f64 = 0.1;
 
-/// What a force makes of all particles that are not fixed.
+/// A fluid that a force makes of all particles that are not fixed.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Continuum {
-    /// What flows.
+    /// The fluid.
     pub medium: Medium,
-    /// What its walls weigh.
+    /// The masses of its walls.
     pub walls: WallMass,
     /// Whether its density is summed over masses around; else it begins at rest, whatever is around.
     pub summed: bool,
-    /// The weight that it goes by, if by any \[length / time²\].
+    /// The gravity that it uses, if any \[length / time²\].
     pub weight: Option<DVec3>,
 }
 
-/// Particles as they stand before the first step.
+/// Particles before the first step.
 #[derive(Debug, Clone, Copy)]
 pub struct Still<'a> {
-    /// Where they are.
+    /// Their positions.
     pub position: &'a [DVec3],
     /// Mass; what walls weigh is found here.
     pub mass: &'a [f64],
-    /// Which are of a wall, by id.
+    /// Whether each particle is a wall, by id.
     pub walls: &'a [bool],
-    /// Where they may be.
+    /// The box and its boundaries.
     pub bounds: &'a Bounds,
 }
 
-/// How a fluid starts.
+/// The initial state of a fluid.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Start {
-    /// What flows.
+    /// The fluid.
     pub medium: Medium,
-    /// Whether its density is that of the start, or only what a sum over masses would say: see [`Continuum`].
+    /// Whether its density is that of the start, or only that of a summation over masses: see [`Continuum`].
     pub summed: bool,
-    /// How many particles are of the fluid.
+    /// The number of fluid particles.
     pub fluid: u32,
-    /// How many are of walls.
+    /// The number of wall particles.
     pub walls: u32,
-    /// Where the fluid begins and ends \[length\].
+    /// The extent of the fluid \[length\].
     pub extent: (DVec3, DVec3),
     /// The lightest and the heaviest of the fluid \[mass\].
     pub mass: (f64, f64),
@@ -65,12 +65,12 @@ pub struct Start {
     pub densest: (u32, f64),
     /// The thinnest, likewise.
     pub thinnest: (u32, f64),
-    /// Two of the fluid at the same place, if any, and how far apart they are.
+    /// Two fluid particles at the same position, if any, and their distance.
     pub same: Option<(u32, u32, f64)>,
-    /// How many are too dense.
+    /// The number of particles that are too dense.
     pub dense: u32,
-    /// How far the fastest particle must move in the first step, at least, where pressure is solved for: that takes away at once all that is too
-    /// dense; else 0 \[spacings\].
+    /// The minimum displacement of the fastest particle in the first step, where pressure is solved for, since the solve removes all excess
+    /// density at once; otherwise 0 \[spacings\].
     pub thrust: f64,
     /// The cause of the maximum density.
     cause: String,
@@ -135,8 +135,8 @@ impl Start {
         let density = self.densest.1 * self.medium.density;
         self.medium.state(density).0 * density * density
     }
-    /// How fast that pressure drives the fluid apart into a void, by the Riemann invariant of Tait's equation:
-    /// u = 2 c / (γ − 1) ((ρ/ρ₀)^((γ − 1)/2) − 1) \[length / time\].
+    /// The speed to which that pressure accelerates the fluid into a void, by the Riemann invariant of Tait's equation: u = 2 c / (γ − 1)
+    /// ((ρ/ρ₀)^((γ − 1)/2) − 1) \[length / time\].
     #[must_use]
     pub fn burst(&self) -> f64 {
         speed(&self.medium, self.densest.1)
@@ -187,7 +187,7 @@ fn speed(medium: &Medium, ratio: f64) -> f64 {
     (medium.sound / power * (ratio.powf(power) - 1.0)).max(0.0)
 }
 
-/// The mass of each particle: walls as much as the fluid whose place they take.
+/// The mass of each particle: walls have that of the fluid that they replace.
 fn masses(fluid: &Continuum, still: &Still<'_>, nearby: &Nearby<'_>) -> Vec<f64> {
     let (medium, smoothed) = (&fluid.medium, fluid.medium.smoothed());
     let of = |id: usize| {
@@ -204,7 +204,7 @@ fn masses(fluid: &Continuum, still: &Still<'_>, nearby: &Nearby<'_>) -> Vec<f64>
     (0..still.position.len()).into_par_iter().map(of).collect()
 }
 
-/// How dense the fluid is at a particle, and the nearest particle of it.
+/// The density of the fluid at a particle, and the nearest fluid particle.
 fn density_at(
     smoothed: &Smoothed,
     still: &Still<'_>,

@@ -9,10 +9,10 @@ use crate::error::Error;
 use crate::kernel::{Host, Kernel, Pass, Problem, Shader};
 use crate::neighbors::{SORTED_ID, STARTS};
 
-/// The kernel that writes density, pressure and energy down in the order of the cell list.
+/// The kernel that stores density, pressure and energy in the order of the cell list.
 ///
 /// # Errors
-/// When the range is none, or a shader does not compile.
+/// When the range is invalid, or a shader does not compile.
 pub fn state(medium: &Medium, problem: &Problem) -> Result<Kernel, Error> {
     let grid = medium.grid(problem)?;
     let (holding, tables) = problem.holding();

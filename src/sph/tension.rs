@@ -11,7 +11,7 @@ use crate::error::Error;
 use crate::kernel::{ACCELERATION, Problem, Scalar, World};
 use crate::visit::{Candidate, Law, Outcome, Particle};
 
-/// How a surface pulls.
+/// The surface tension of a fluid.
 ///
 /// γ is no σ. Cohesion goes with masses, σ = 0.003 γ ρ² h² where nothing else pulls (Kirkwood & Buff 1949), curvature with numbers of
 /// neighbours; and in a drop of radius R both press as σ does on R − h, h being the support: p = 2 σ / (R − h). So measured in space,
@@ -30,7 +30,7 @@ pub struct Tension {
 /// The laws that add what it does; it holds no potential energy, for curvature has none.
 ///
 /// # Errors
-/// When the range is none.
+/// When the range is invalid.
 pub fn tension(medium: &Medium, tension: Tension, problem: &Problem) -> Result<[Law; 2], Error> {
     Ok([normals(medium, problem)?, pull(medium, tension, problem)?])
 }

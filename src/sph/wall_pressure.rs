@@ -19,7 +19,7 @@ const WALL_PRESSURE: &str = "wall_pressure";
 /// more. What is left out is ρ a times the half of a support, at a wall that accelerates.
 ///
 /// # Errors
-/// When the range is none, or a shader does not compile.
+/// When the range is invalid, or a shader does not compile.
 pub fn wall_pressure(medium: &Medium, weight: DVec3, problem: &Problem) -> Result<[Kernel; 2], Error> {
     let search = Search { fixed: true, ..medium.search(FLOWING, &[FLOW, WALL_PRESSURE], problem)? };
     let (medium, smoothed) = (*medium, medium.smoothed());

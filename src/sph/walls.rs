@@ -1,4 +1,4 @@
-//! How heavy the particles of walls are.
+//! The masses of wall particles.
 
 use glam::DVec3;
 
@@ -10,7 +10,7 @@ use crate::visit::{Candidate, Law, Outcome, Particle, Search};
 /// The mass of wall particles.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum WallMass {
-    /// The fluid whose place they take, where they are a layer (Akinci et al. 2012): ρ₀ / Σ W, over the walls.
+    /// That of the fluid that they replace, if they are a layer (Akinci et al. 2012): ρ₀ / Σ W, over the walls.
     Sampled,
     /// A share of the lattice each, ρ₀ d^D, where they are several layers of it (Adami, Hu & Adams 2012).
     Lattice,
@@ -22,10 +22,10 @@ const WEIGHED: &str = "weighed";
 /// The kernel that gives fixed particles their masses.
 ///
 /// # Errors
-/// When the range is none, or a shader does not compile.
+/// When the range is invalid, or a shader does not compile.
 pub fn walls(medium: &Medium, weighs: WallMass, problem: &Problem) -> Result<Kernel, Error> {
     let search = Search { fixed: true, ..medium.search(Candidate::STILL, &[], problem)? };
-    // 0 where the sum says it.
+    // 0: computed by the sum.
     let mass = if weighs == WallMass::Sampled { 0.0 } else { medium.mass() };
     let (medium, smoothed) = (*medium, medium.smoothed());
     let (walls, held) = (problem.clone(), problem.clone());

@@ -12,7 +12,7 @@ use crate::visit::{Law, Outcome, Particle};
 /// The law that adds  ε / dt Σ m / ρ̄ (v' − v) W  to accelerations (Monaghan 1989; Schechter & Bridson 2012).
 ///
 /// # Errors
-/// When the range is none.
+/// When the range is invalid.
 pub fn xsph(medium: &Medium, strength: f64, problem: &Problem) -> Result<Law, Error> {
     let search = medium.search(FLOWING, &[FLOW], problem)?;
     let (smoothed, params) = (medium.smoothed(), vec![("xsph", Scalar::Float(strength))]);

@@ -1,4 +1,4 @@
-//! How stiff a network can be at most: the disks of Gershgorin (1931) about the blocks of M^(−1/2) K M^(−1/2).
+//! An upper bound of a network's stiffness: the disks of Gershgorin (1931) about the blocks of M^(−1/2) K M^(−1/2).
 
 use crate::links::Link;
 
@@ -9,7 +9,7 @@ pub struct Row {
     pub sum: f64,
     /// The particle.
     pub particle: u32,
-    /// The one of its springs that adds most, by its place in the list.
+    /// The one of its springs with the largest contribution, by its index in the list.
     pub spring: usize,
 }
 

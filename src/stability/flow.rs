@@ -8,13 +8,13 @@ use crate::integrators::SymplecticEuler;
 use crate::kernel::Machine;
 use crate::simulation::Setup;
 
-/// Above so many times the largest step that is safe a fluid is lost. In a dam that breaks (25 by 16 particles, 160 steps) sound, α,
-/// ν and ε above it made energies of 10⁴ to 10⁶ times the first; between, a surface that is not a lattice may be stable.
+/// The factor over the largest safe step above which a fluid is lost. In a dam break (25 by 16 particles, 160 steps) sound, α, ν and ε
+/// above it led to energies of 10⁴ to 10⁶ times the first; below it, a surface that is not a lattice may be stable.
 const LOST: f64 = 1.25;
-/// How long nothing may grow tenfold, in times of the quickest.
+/// The time in which nothing may grow tenfold, in units of the fastest time scale.
 const PERIODS: f64 = 1e4;
 
-/// What limits the step.
+/// The limits of the time step.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Asks {
     /// The speed of sound.
@@ -25,25 +25,24 @@ pub enum Asks {
     Xsph,
 }
 
-/// What a fluid asks of the steps of a setup.
+/// The stability of a fluid under the steps of a setup.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Flow {
     /// The largest dt that is safe \[time\]: infinite where any is stable; whatever XSPH is.
     pub safe: f64,
-    /// How many times too long steps are: 1 is just safe. Of XSPH, how many times too strong it is.
+    /// The step relative to the largest safe one: above 1 it is too long. For XSPH, its strength relative to the safe one.
     pub excess: f64,
-    /// What asks for that.
+    /// The limit.
     pub asks: Asks,
     /// Whether the integrator is stable for undamped oscillations, so that steps that are far too long certainly fail.
     pub sure: bool,
 }
 
 impl Flow {
-    /// Of a setup; `None` where there is no fluid. Steps that are adaptive keep to limits of
-    /// their own, and are asked for XSPH alone.
+    /// For a setup; `None` where there is no fluid. Adaptive steps have limits of their own, and only XSPH is checked.
     ///
     /// # Errors
-    /// When there is no such fluid, or what a simulation of one particle by the references says.
+    /// When there is no such fluid, and errors of a simulation of one particle by the references.
     pub async fn of(setup: &Setup, build: Build<'_>) -> Result<Option<Self>, Error> {
         let problem = setup.problem(Machine::HOST)?;
         let Some(rates) = setup
@@ -54,7 +53,7 @@ impl Flow {
         else {
             return Ok(None);
         };
-        // What is not solved for goes by the step of an explicit method.
+        // Forces that are not solved for are limited like those of an explicit method.
         let build: Build<'_> = if build().is_implicit() { &|| Box::new(SymplecticEuler) } else { build };
         // The limit is sharp in so long a time, and few steps are no excuse.
         let duration = PERIODS / rates.sound.max(rates.friction);

@@ -1,12 +1,12 @@
-//! How stiff a network is at least: the quickest mode at given places, by power iteration (von Mises & Pollaczek-Geiringer
-//! 1929). The quotient of Rayleigh lies below the true eigenvalue, however early one stops.
+//! A lower bound of a network's stiffness: the fastest mode at given positions, by power iteration (von Mises & Pollaczek-Geiringer 1929).
+//! The Rayleigh quotient is below the true eigenvalue, however early the iteration stops.
 
 use glam::DVec3;
 
 use crate::kernel::Bounds;
 use crate::links::Link;
 
-/// A network at some places: its springs' directions, and how much they resist across.
+/// A network at some positions: its springs' directions, and their transverse stiffness.
 pub struct Network<'a> {
     springs: &'a [Link],
     /// 1 / √m; 0 for fixed particles.
@@ -29,7 +29,7 @@ pub struct Mode {
 const ITERATIONS: usize = 40;
 
 impl<'a> Network<'a> {
-    /// Of springs between particles of these masses (infinite for fixed ones) and places.
+    /// For springs between particles of these masses (infinite for fixed ones) and positions.
     #[must_use]
     pub fn new(springs: &'a [Link], masses: &[f64], positions: &[DVec3], bounds: &Bounds) -> Self {
         let light = masses.iter().map(|m| 1.0 / m.sqrt()).collect();
@@ -82,7 +82,7 @@ impl<'a> Network<'a> {
         }
         mode
     }
-    /// What the springs' stiffness, or their damping, makes of a shape, in coordinates √m x.
+    /// The product of the springs' stiffness matrix, or of their damping matrix, with a shape, in coordinates √m x.
     fn product(&self, shape: &[DVec3], stiffness: bool) -> Vec<DVec3> {
         let mut image = vec![DVec3::ZERO; shape.len()];
         for (spring, (u, across)) in self.springs.iter().zip(&self.along) {

@@ -37,7 +37,7 @@ impl Oscillator<Cpu> {
     /// On the references, in f64. `omega` is ω and `damping` is c, both \[1 / time\].
     ///
     /// # Errors
-    /// When the numbers make no sense to a simulation.
+    /// When the numbers are invalid.
     pub fn new(integrator: Box<dyn Integrator>, omega: f64, damping: f64) -> Result<Self, Error> {
         Self::on(Cpu::new(1)?, integrator, omega, damping)
     }
@@ -47,16 +47,16 @@ impl<B: Backend> Oscillator<B> {
     /// The same on a backend for one particle.
     ///
     /// # Errors
-    /// What making a simulation there says.
+    /// Errors of creating a simulation there.
     pub fn on(backend: B, integrator: Box<dyn Integrator>, omega: f64, damping: f64) -> Result<Self, Error> {
         let setup = oscillator(integrator, omega, damping, 1.0);
         let mut simulation = Simulation::on(backend, &setup)?;
-        // What is done once before the first step is done with.
+        // After this step the start plan has run.
         simulation.step(1)?;
         Ok(Self { simulation, rate: omega + damping })
     }
-    /// What a step of dt makes of (x, v, a): its matrix. An integrator may go by the acceleration that it finds, as
-    /// leapfrog does, so that belongs to the state.
+    /// The matrix of a step of dt on (x, v, a). An integrator may use the previous acceleration, as leapfrog does, so that it belongs to
+    /// the state.
     ///
     /// # Errors
     /// When the device is lost.
@@ -78,7 +78,7 @@ impl<B: Backend> Oscillator<B> {
         }
         Ok(DMat3::from_cols(rows[0], rows[1], rows[2]).transpose())
     }
-    /// By how much a step of dt multiplies what it multiplies most: the largest |eigenvalue| of its matrix.
+    /// The growth factor of a step of dt: the largest |eigenvalue| of its matrix.
     ///
     /// # Errors
     /// When the device is lost.
@@ -89,8 +89,8 @@ impl<B: Backend> Oscillator<B> {
     async fn bears(&mut self, dt: f64, duration: f64) -> Result<bool, Error> {
         Ok(self.growth(dt).await?.ln() * (duration / dt) < MOST.ln())
     }
-    /// The largest dt under which a run over so long a time stays bounded: nothing grows tenfold. Infinite for a method
-    /// that is stable at any dt, and 0 for one that is stable at none.
+    /// The largest dt for which a run of this duration stays bounded: nothing grows tenfold. Infinite for a method that is stable at any
+    /// dt, and 0 for one that is never stable.
     ///
     /// # Errors
     /// When the device is lost.
@@ -123,11 +123,11 @@ impl<B: Backend> Oscillator<B> {
     }
 }
 
-/// The largest dt under which an integrator keeps x″ = −ω² x − c x′ bounded for so long: by the references, in f64, and from
-/// its own steps. A network of springs is safe at what it gives for bounds of ω and c.
+/// The largest dt for which an integrator keeps x″ = −ω² x − c x′ bounded over a duration: by the references, in f64, from its own steps. A
+/// network of springs is stable at the result for bounds of ω and c.
 ///
 /// # Errors
-/// When the numbers make no sense to a simulation.
+/// When the numbers are invalid.
 pub async fn largest_step(
     integrator: Box<dyn Integrator>,
     omega: f64,
@@ -137,8 +137,8 @@ pub async fn largest_step(
     Oscillator::new(integrator, omega, damping)?.largest_step(duration).await
 }
 
-/// The largest |eigenvalue|: lim ‖Mⁿ‖^(1/n) (Gelfand 1941), with n doubled until nothing is left to gain. It asks for no
-/// formula of roots, and is as exact as the matrix.
+/// The largest |eigenvalue|: lim ‖Mⁿ‖^(1/n) (Gelfand 1941), with n doubled until it converges. It needs no formula for roots, and is as
+/// accurate as the matrix.
 #[must_use]
 pub fn spectral_radius(mut matrix: DMat3) -> f64 {
     let (mut logarithm, mut part) = (0.0, 1.0);

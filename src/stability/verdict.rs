@@ -8,16 +8,16 @@ use crate::error::Error;
 use crate::integrators::{Integrator, SymplecticEuler};
 use crate::simulation::Setup;
 
-/// Makes an integrator, as its line in the register does with what a scene says to it.
+/// A function that makes the integrator, with its settings.
 pub type Build<'a> = &'a (dyn Fn() -> Box<dyn Integrator> + Sync);
 
 /// A part of the largest step: at the limit itself a symplectic method keeps energies within bounds that are wide.
 const MARGIN: f64 = 0.9;
 
-/// What the springs and joints of a setup ask of its steps.
+/// The stability of springs and joints under the steps of a setup.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Verdict {
-    /// How stiff the network is at most, and where.
+    /// An upper bound of the network's stiffness, and its location.
     pub bound: Bound,
     /// The largest ω² of the joints \[1 / time²\].
     pub joints: f64,
@@ -31,10 +31,10 @@ pub struct Verdict {
 }
 
 impl Verdict {
-    /// Of a setup that is to run for so many steps; `None` where neither spring nor joint acts.
+    /// For a setup that runs for `steps` steps; `None` where no spring or joint acts.
     ///
     /// # Errors
-    /// What a simulation of one particle by the references says.
+    /// Errors of a simulation of one particle by the references.
     pub async fn of(setup: &Setup, build: Build<'_>, steps: u64) -> Result<Option<Self>, Error> {
         let springs = &setup.state.links.springs;
         let names: Vec<String> = setup.forces.iter().flat_map(|force| force.laws()).map(|law| law.name).collect();
@@ -80,8 +80,8 @@ impl Verdict {
         }
         Ok(Some(verdict))
     }
-    /// Into how many a step of dt must be divided to be safe, with a tenth to spare; 1 for one that is safe as it is, and
-    /// `None` where no division helps.
+    /// The number of substeps into which a step of dt must be divided to be stable, with a margin of a tenth; 1 if it is stable already,
+    /// and `None` if no division helps.
     #[must_use]
     pub fn substeps(&self, dt: f64) -> Option<u64> {
         let parts = (dt / (MARGIN * self.safe)).ceil();

@@ -1,4 +1,4 @@
-//! One state behind another, and some particles of one.
+//! Appending a state, and selecting particles of a state.
 
 use std::collections::BTreeSet;
 
@@ -9,9 +9,8 @@ use crate::life::Birth;
 use crate::motion::{Held, Hold};
 
 impl State {
-    /// Adds all particles of another state; they keep their ids where none of them is taken, and get those that follow on
-    /// otherwise. Columns that only one of them gives have their initial values in
-    /// the other. Time and step stay.
+    /// Adds all particles of another state; they keep their ids if none of these is taken, and otherwise get the next unused ones. Columns
+    /// that only one of them gives have their initial values in the other. Time and step are unchanged.
     ///
     /// # Errors
     /// [`Error::Scene`] when both have a column of one name and different kinds, or one gives a column that every particle must
@@ -67,8 +66,8 @@ impl State {
         self.drains.extend_from_slice(&other.drains);
         Ok(())
     }
-    /// The particles in these places, each named once, in this order, with the ids that they are given; and of what ties, moves and
-    /// spawns particles all that concerns only these.
+    /// The particles at these indices, each given once, in this order, with their ids; and the links, births, and fixed and kinematic
+    /// particles among these.
     #[must_use]
     pub fn picked(&self, order: &[usize]) -> Self {
         let mut picked = self.clone();

@@ -66,10 +66,10 @@ impl State {
         self.species_mut().fill(species);
         self
     }
-    /// No particles, and memory for so many.
+    /// No particles, with memory for `count`.
     ///
     /// # Errors
-    /// When there is not so much memory.
+    /// When there is not enough memory.
     pub(crate) fn with_room(count: usize) -> Result<Self, TryReserveError> {
         let mut state = Self::default();
         for (_, values) in state.particle_columns() {

@@ -1,4 +1,4 @@
-//! Ids of particles: names that stay with them, whatever row their values lie in.
+//! Ids of particles: names that stay the same, whatever row holds their values.
 
 use std::borrow::Cow;
 use std::collections::BTreeSet;
@@ -10,24 +10,23 @@ use crate::error::Error;
 use crate::kernel::{Array, ID};
 
 impl State {
-    /// The ids of the particles, in the order of their places; 0, 1, 2, … where none are given.
+    /// The ids of the particles, by index; 0, 1, 2, … where none are given.
     #[must_use]
     pub fn ids(&self) -> Cow<'_, [u32]> {
         let places = || (0..u32::try_from(self.len()).unwrap_or(u32::MAX)).collect();
         self.whole(ID.name).map_or_else(|| Cow::Owned(places()), Cow::Borrowed)
     }
-    /// Whether ids are given, apart from places. Links, fixed particles, births and motions count particles by their places all the
-    /// same.
+    /// Whether ids are given, separate from indices. Links, fixed particles, births and motions refer to particles by index in any case.
     #[must_use]
     pub fn has_ids(&self) -> bool {
         self.whole(ID.name).is_some()
     }
-    /// Whether ids are places: 0, 1, 2, … without gaps.
+    /// Whether ids equal indices: 0, 1, 2, … without gaps.
     #[must_use]
     pub fn ids_are_places(&self) -> bool {
         self.whole(ID.name).is_none_or(|ids| ids.iter().zip(0..).all(|(id, place)| *id == place))
     }
-    /// The place of a particle.
+    /// The index of a particle.
     #[must_use]
     pub fn place_of(&self, id: u32) -> Option<usize> {
         match self.whole(ID.name) {
@@ -35,10 +34,10 @@ impl State {
             None => usize::try_from(id).ok().filter(|place| *place < self.len()),
         }
     }
-    /// Gives particles ids, in the order of their places.
+    /// Sets the ids of particles, by index.
     ///
     /// # Errors
-    /// [`Error::Scene`] when there are not as many, two are the same, or one is 4294967295, which is none.
+    /// [`Error::Scene`] when their number differs, two are the same, or one is 4294967295, which is reserved.
     pub fn set_ids(&mut self, ids: Vec<u32>) -> Result<(), Error> {
         distinct(&ids)?;
         self.set(ID.name, Array::Uint(ids))
@@ -52,14 +51,14 @@ impl State {
         };
         beyond.max(self.next)
     }
-    /// Takes the counter of ids out of what a file kept.
+    /// Takes the id counter out of the restart data of a file.
     #[cfg(feature = "scene")]
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "saturates")]
     pub(crate) fn take_next(&mut self) {
         self.next = self.kept.get(KEPT_NEXT).and_then(|list| list.first()).map_or(0, |next| *next as u32);
         self.kept.put(KEPT_NEXT, Vec::new());
     }
-    /// Gives the last `count` particles ids of their own, where ids are given.
+    /// Gives unused ids to the last `count` particles, where ids are given.
     pub(super) fn name_last(&mut self, count: usize, next: u32) {
         if let Some(Array::Uint(ids)) = self.get_mut(ID.name) {
             let first = ids.len().saturating_sub(count);
@@ -68,7 +67,7 @@ impl State {
     }
 }
 
-/// Refuses ids of which two are the same, or one is none.
+/// Refuses duplicate and reserved ids.
 ///
 /// # Errors
 /// [`Error::Scene`] that names the id.

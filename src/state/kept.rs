@@ -11,35 +11,35 @@ use crate::life::Life;
 use crate::links::{Link, Links};
 use crate::motion::Held;
 
-/// What their names begin with in files; no column may be called so.
+/// The prefix of their names in files; no column name may begin with it.
 pub(crate) const KEPT: &str = "kept_";
 
-/// The lowest and the highest corner of where particles were at the start of the run: cells are chosen by it, and so the order of sums.
+/// The lowest and the highest corner of the particles at the start of the run: it determines the cells, and so the order of sums.
 pub(crate) const EXTENT: &str = "kept_extent";
 
 /// A hash of the step that made a state, in two words.
 pub(crate) const STEP: &str = "kept_step";
 
-/// What continues where positions and velocities are changed by a caller: it says nothing of them.
+/// Restart data that stays valid when a caller changes positions or velocities.
 const LASTING: [&str; 5] = [HOME, BROKEN, PAIRS, PAIR_WORDS, "kept_step_clock"];
 
-/// How many rows were in use when the plan was written, by which cells are chosen too.
+/// The number of rows in use when the plan was written, which also determines the cells.
 pub(crate) const ROWS: &str = "kept_rows";
-/// How many neighbours particles had at the start of the run, by which searches were chosen: ranges and means.
+/// The neighbour counts at the start of the run, which determine the searches: ranges and means.
 pub(crate) const NEIGHBORS: &str = "kept_neighbors";
-/// How many neighbours of a particle a list shall have room for: said by a simulation that grows, and by no state that it gives.
+/// The number of neighbours per particle that a list has room for: set by a simulation that grows, never in a state that it returns.
 pub(crate) const ROOM: &str = "kept_room";
 
-/// The id from which on no particle has had one, in files.
+/// The next unused id, in files.
 #[cfg(feature = "scene")]
 pub(crate) const NEXT: &str = "kept_next_id";
 
-/// What pairs remember: the rows of both, and their words.
+/// The history of pairs: the rows of both, and their words.
 pub(crate) const PAIRS: &str = "kept_pairs";
-/// How many words each of these has.
+/// The number of words of each pair.
 pub(crate) const PAIR_WORDS: &str = "kept_pair_words";
 
-/// Where fixed particles were at time 0, in groups of seven numbers: the id, that place, and where they are.
+/// The positions of fixed particles at time 0, in groups of seven numbers: the id, that position, and the present one.
 pub(crate) const HOME: &str = "kept_home";
 /// Springs that have broken, in groups of three numbers: the ids of the two, and the rest length, negative for a rope.
 pub(crate) const BROKEN: &str = "kept_broken";
@@ -53,7 +53,7 @@ impl Kept {
     pub fn get(&self, name: &str) -> Option<&[f64]> {
         self.0.get(name).map(Vec::as_slice)
     }
-    /// Keeps numbers; none at all are not kept.
+    /// Stores numbers; an empty list is not stored.
     pub fn put(&mut self, name: impl Into<String>, numbers: Vec<f64>) {
         let name = name.into();
         if numbers.is_empty() {
@@ -66,11 +66,11 @@ impl Kept {
     pub fn iter(&self) -> impl Iterator<Item = (&str, &[f64])> {
         self.0.iter().map(|(name, numbers)| (name.as_str(), numbers.as_slice()))
     }
-    /// Forgets everything.
+    /// Removes all data.
     pub fn clear(&mut self) {
         self.0.clear();
     }
-    /// Forgets what belongs to the positions and velocities that were there.
+    /// Removes the data that depends on the earlier positions and velocities.
     pub fn touched(&mut self) {
         self.0.retain(|name, _| LASTING.contains(&name.as_str()));
     }
@@ -92,12 +92,11 @@ impl State {
     pub fn keeps(&self) -> bool {
         self.kept.get(STEP).is_some()
     }
-    /// Goes on from where another state of the same particles is: its columns, its clock, and what the last step kept. What this
-    /// state alone has, stays: links, but for springs that have broken, fixed particles, motions, births, drains, and columns that the
-    /// other does not give.
+    /// Continues from another state of the same particles: takes its columns, its clock, and its restart data. Data that only this state
+    /// has is kept: links, except broken springs, fixed particles, motions, births, drains, and columns that the other does not give.
     ///
     /// # Errors
-    /// [`Error::Scene`](crate::Error::Scene) when the other has not as many particles, or a column of another kind.
+    /// [`Error::Scene`](crate::Error::Scene) when the other has another number of particles, or a column of another kind.
     pub fn go_on_from(&mut self, other: &Self) -> Result<(), crate::Error> {
         if other.len() != self.len() {
             return Err(crate::Error::Scene(format!(
@@ -109,7 +108,7 @@ impl State {
         }
         self.origin(other);
         let origin = std::mem::take(&mut self.kept);
-        // Files say nothing of life where all are active.
+        // Files hold no life column where all particles are active.
         if other.get(LIFE.name).is_none() && self.get(LIFE.name).is_some() {
             self.set(LIFE.name, Array::Uint(vec![Life::Active.word(); self.len()]))?;
         }
@@ -127,7 +126,8 @@ impl State {
         self.links.springs.retain(|link| !broken.contains(&named(link)));
         Ok(())
     }
-    /// Keeps where particles are and fixed ones began, for a run that continues from another state of theirs, if they are at its start.
+    /// Stores the extent of the particles and the initial positions of fixed ones, for a run that continues from another state of them, if
+    /// this state is at the start.
     fn origin(&mut self, other: &Self) {
         if self.step > 0 || self.time > 0.0 || self.kept.get(EXTENT).is_some() {
             return;
@@ -158,7 +158,7 @@ impl State {
         };
         groups.map(link).collect()
     }
-    /// The links with springs that have broken, which stand in the tables of kernels: how many springs an end had counts.
+    /// The links including broken springs, which stay in the tables of kernels: the number of springs at an end matters.
     pub(crate) fn all_links(&self) -> Cow<'_, Links> {
         let broken = self.broken();
         if broken.is_empty() {
@@ -168,7 +168,7 @@ impl State {
         links.springs.extend(broken);
         Cow::Owned(links)
     }
-    /// Keeps which springs of these have broken since.
+    /// Stores the springs that have broken since.
     pub(crate) fn keep_broken(&mut self, all: &Links) {
         let mut intact = self.links.springs.iter().peekable();
         let mut broken: Vec<[f64; 3]> = Vec::new();
@@ -178,7 +178,7 @@ impl State {
                 broken.push([f64::from(link.ends[0]), f64::from(link.ends[1]), rest]);
             }
         }
-        // In one order, however often the run has been stopped.
+        // In a fixed order, however often the run has been stopped.
         broken.sort_by(|a, b| a.iter().zip(b).map(|(a, b)| a.total_cmp(b)).fold(Ordering::Equal, Ordering::then));
         self.kept.put(BROKEN, broken.concat());
     }

@@ -13,13 +13,13 @@ pub(crate) const NONE: u32 = u32::MAX;
 const EVENLY: DVec3 = DVec3::new(0.819_172_513_396_164_4, 0.671_043_606_703_789_2, 0.549_700_477_901_970_3);
 
 impl State {
-    /// Rows of a simulation that is made of it.
+    /// The number of rows of a simulation made from it.
     #[must_use]
     pub fn rows(&self) -> usize {
         self.len().max(self.capacity.map_or(0, |rows| rows as usize))
     }
-    /// The same with free rows behind its particles, where it has a capacity and none of them yet: removed, and without mass. They stand
-    /// somewhere between the particles, no two in one place.
+    /// The same state with free rows after its particles, where it has a capacity and no free rows yet: removed, and without mass. They lie
+    /// between the particles, no two at the same position.
     pub(crate) fn padded(&self) -> Option<Self> {
         if self.capacity.is_none() || self.free.is_some() {
             return None;
@@ -52,14 +52,14 @@ impl State {
         (state.kept, state.next, state.free) = (kept, next, Some(u32::try_from(free).unwrap_or(u32::MAX)));
         Some(state)
     }
-    /// How many of the last rows are free.
+    /// The number of free rows at the end.
     pub(crate) fn free_rows(&self) -> u32 {
         self.free.unwrap_or(0)
     }
 }
 
-/// Where a free row stands within some corners \[length\]: attraction without softening knows no two particles in one place, be one of
-/// them without mass.
+/// The position of a free row between two corners \[length\]: attraction without softening requires distinct positions, even of particles
+/// without mass.
 pub(crate) fn parked((low, high): (DVec3, DVec3), row: u32) -> DVec3 {
     low + (high - low) * (0.5 + f64::from(row) * EVENLY).fract()
 }

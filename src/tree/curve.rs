@@ -8,7 +8,7 @@ pub(super) const LOWER: u32 = 31;
 /// And of its upper word.
 pub(super) const UPPER: u32 = 3 * BITS - LOWER;
 
-/// A cell's place along the curve. Each number of the cell is below 2²¹.
+/// A cell's index along the curve. Each coordinate of the cell is below 2²¹.
 #[must_use]
 pub fn hilbert(cell: [u32; 3]) -> u64 {
     let mut x = cell;

@@ -1,9 +1,9 @@
-//! Far groups as one: an implicit binary tree over particles in Hilbert order, built on the device at each evaluation. It
-//! knows nothing of laws.
+//! Approximation of far groups: an implicit binary tree over particles in Hilbert order, built on the device at each evaluation,
+//! independent of laws.
 //!
-//! Particles are sorted along a Hilbert curve and cut into leaves of [`LEAF`]; a node is what two nodes below it hold. Its
-//! place in the fields is a heap's: 1 is the root, 2 n and 2 n + 1 are the children of n, and all leaves stand
-//! [`height`](Tree::height) levels below the root. Nodes after the last leaf do not exist, and are not visited.
+//! Particles are sorted along a Hilbert curve and divided into leaves of [`LEAF`]; a node is the union of its two children. Nodes are
+//! numbered as in a heap: 1 is the root, 2 n and 2 n + 1 are the children of n, and all leaves are [`height`](Tree::height) levels below
+//! the root. Nodes after the last leaf do not exist, and are not visited.
 
 mod build;
 mod curve;
@@ -21,34 +21,34 @@ use crate::kernel::{Name, Problem};
 
 /// Particles of a leaf.
 pub const LEAF: u32 = 4;
-/// Targets that walk together: what a node three levels above the leaves holds.
+/// Targets that walk together: the particles of a node three levels above the leaves.
 pub const GROUP: u32 = 8 * LEAF;
 
 /// A tree over all particles.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Tree {
-    /// When a node is too near to be taken as one.
+    /// The criterion by which a node is opened.
     pub opening: Opening,
-    /// A node is opened, too, where any place in its box may be nearer than this \[length\]: there the law has no expansion.
+    /// A node is also opened if any point in its box may be nearer than this \[length\]: there the expansion of the law does not hold.
     pub core: f64,
-    /// Rows that it has room for.
+    /// The number of rows allocated.
     pub count: u32,
-    /// Rows in it: those in use.
+    /// The number of rows in use.
     pub used: u32,
 }
 
 impl Tree {
-    /// Over all particles of a problem.
+    /// A tree over all particles of a problem.
     #[must_use]
     pub fn new(opening: Opening, core: f64, problem: &Problem) -> Self {
         Self { opening, core, count: problem.capacity, used: problem.capacity }
     }
-    /// The same over the rows that are in use.
+    /// The same over the rows in use.
     #[must_use]
     pub fn of_rows(&self, used: u32) -> Self {
         Self { used: used.min(self.count), ..self.clone() }
     }
-    /// How many leaves there is room for.
+    /// The number of leaves allocated.
     #[must_use]
     pub fn leaves(&self) -> u32 {
         self.count.div_ceil(LEAF).max(1)
@@ -63,12 +63,12 @@ impl Tree {
     pub fn nodes(&self) -> u64 {
         2 << self.height()
     }
-    /// How many groups of targets there are.
+    /// The number of groups of targets.
     #[must_use]
     pub fn groups(&self) -> u32 {
         self.count.div_ceil(GROUP)
     }
-    /// The nodes of a level, which is so many above the leaves: the first, and how many exist.
+    /// The nodes of a level, `above` levels above the leaves: the first, and the number of existing ones.
     #[must_use]
     pub fn level(&self, above: u32) -> (u32, u32) {
         let wide = 1_u64 << (self.height().saturating_sub(above));
@@ -81,12 +81,12 @@ impl Tree {
     pub fn exists(&self, n: u32) -> bool {
         n > 0 && n.ilog2() <= self.height() && !self.range(n).is_empty()
     }
-    /// Whether a node stands at the level of the leaves.
+    /// Whether a node is at the level of the leaves.
     #[must_use]
     pub fn is_leaf(&self, n: u32) -> bool {
         n.checked_ilog2() == Some(self.height())
     }
-    /// The particles of a node, by their places along the curve; none, where it does not exist.
+    /// The particles of a node, by their indices along the curve; empty, where it does not exist.
     #[must_use]
     pub fn range(&self, n: u32) -> Range<usize> {
         let level = n.checked_ilog2().unwrap_or(0);
@@ -95,14 +95,14 @@ impl Tree {
         let place = |k: u64| usize::try_from(k.min(self.used.into())).unwrap_or(usize::MAX);
         place(first)..place(first + bodies)
     }
-    /// How far a node of side 1 reaches.
+    /// The reach of a node of side 1.
     fn stretch(&self) -> f64 {
         match self.opening {
             Opening::Geometric { theta } => 1.0 / theta,
             Opening::Relative { .. } => 1.0,
         }
     }
-    /// What it is for.
+    /// Its name, by its opening criterion.
     #[must_use]
     pub fn name(&self) -> String {
         if self.core > 0.0 { format!("{} core={}", self.opening, self.core) } else { self.opening.to_string() }
@@ -118,8 +118,8 @@ impl Tree {
 pub(crate) const TREE_ID: &str = "tree_id";
 /// Positions and masses in that order.
 pub(crate) const TREE_BODY: &str = "tree_body";
-/// Of each node: its centre of mass (of its box, where its mass is 0), and how near a target may come before it is opened
-/// \[length\]: the greater of l / θ + s (l + s, where the opening is relative) and core + s + l √3 / 2.
+/// Of each node: its centre of mass (of its box, where its mass is 0), and the distance of a target below which it is opened \[length\]:
+/// the greater of l / θ + s (l + s, where the opening is relative) and core + s + l √3 / 2.
 pub(crate) const TREE_CENTER: &str = "tree_center";
 /// Of each node: xx, xy and xz of its second moments Σ m y yᵀ about the centre of mass, and its mass.
 pub(crate) const TREE_MASS: &str = "tree_mass";
@@ -129,6 +129,6 @@ pub(crate) const TREE_SHAPE: &str = "tree_shape";
 pub(crate) const TREE_LOW: &str = "tree_low";
 /// Of each node: the highest corner of its tight box, and 0.
 pub(crate) const TREE_HIGH: &str = "tree_high";
-/// Of each group of targets: G / (α a) with the smallest last acceleration a in them, or a part of the sizes of
-/// all pulls where that is more; 0 where one of them has none. Where the opening is relative.
+/// Of each group of targets: G / (α a) with the smallest last acceleration a of its targets, or a part of the sum of the magnitudes of all
+/// attractions where that is larger; 0 if a target has no acceleration yet. Only with the relative criterion.
 pub(crate) const TREE_DEMAND: &str = "tree_demand";

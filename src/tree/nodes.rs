@@ -23,7 +23,7 @@ impl<'a> Nodes<'a> {
     /// Opens the fields of a tree.
     ///
     /// # Errors
-    /// When the host has not all of them, or one is being written; the opening criteria of groups are optional.
+    /// When the host lacks one of them, or one is being written; the opening criteria of groups are optional.
     pub fn of(tree: &Tree, host: &'a Host) -> Result<Self, Error> {
         let vectors = |name| host.reading::<Vec4>(&tree.field(name).1);
         Ok(Self {
@@ -56,7 +56,7 @@ impl<'a> Nodes<'a> {
     pub fn is_leaf(&self, n: u32) -> bool {
         self.tree.is_leaf(n)
     }
-    /// The bodies of a node, by their places in [`Nodes::bodies`].
+    /// The bodies of a node, by their indices in [`Nodes::bodies`].
     #[must_use]
     pub fn range(&self, n: u32) -> Range<usize> {
         self.tree.range(n)
@@ -66,7 +66,7 @@ impl<'a> Nodes<'a> {
     pub fn center(&self, n: u32) -> DVec3 {
         element(&self.center, n).truncate()
     }
-    /// How near a target may come to a node's centre before it is opened \[length\], as the device holds it.
+    /// The distance of a target from a node's centre below which it is opened \[length\], in single precision as on the device.
     #[must_use]
     pub fn reach(&self, n: u32) -> f32 {
         element(&self.center, n).as_vec4().w

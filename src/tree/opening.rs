@@ -11,9 +11,9 @@ pub enum Opening {
         /// θ, between 0 and 1: the smaller, the more exact.
         theta: f64,
     },
-    /// A node of mass M is opened where G M l² / d⁴ > α a, with a the smallest of the last accelerations of the group
-    /// (Springel 2005), or d ≤ l + s. If one of them has none yet the criterion is the geometric one. Where attractions
-    /// cancel, a is 1/32 of the sum of their magnitudes.
+    /// A node of mass M is opened where G M l² / d⁴ > α a, with a the smallest of the last accelerations of the group (Springel 2005), or d
+    /// ≤ l + s. If a target has no acceleration yet, the geometric criterion is used. Where attractions cancel, a is 1/32 of the sum of
+    /// their magnitudes.
     Relative {
         /// α: about the relative error of a force.
         alpha: f64,

@@ -1,4 +1,4 @@
-//! The references of what builds a tree: sums over the bodies of each node, whatever its children are.
+//! The references of the kernels that build a tree: sums over the bodies of each node, independent of its children.
 
 use glam::{DMat3, DVec3, DVec4, Vec4};
 
@@ -10,7 +10,7 @@ use super::{
 use crate::error::Error;
 use crate::kernel::{ACCELERATION, Host, POSITION};
 
-/// The corner of the cube, and cells per length; 0 where single precision has no such number.
+/// The corner of the cube, and cells per length; 0 where that overflows single precision.
 pub(super) fn cube(_: &Tree, host: &Host) -> Result<(), Error> {
     let (least, greatest) = (host.read(LEAST)?, host.read(GREATEST)?);
     let low = least.first().map_or(DVec3::ZERO, |corner| corner.truncate());
@@ -21,7 +21,7 @@ pub(super) fn cube(_: &Tree, host: &Host) -> Result<(), Error> {
     Ok(())
 }
 
-/// Cells by the device's own arithmetic, so that a body at an edge is on one side for both.
+/// Cells by the device's own arithmetic, so that a body at an edge is on the same side for both.
 pub(super) fn keys(tree: &Tree, host: &Host) -> Result<(), Error> {
     let (position, cube) = (host.read(POSITION)?, host.read(CUBE)?);
     let cube = cube.first().map_or(Vec4::ZERO, |c| c.as_vec4());
@@ -114,7 +114,7 @@ pub(super) fn demand(tree: &Tree, host: &Host) -> Result<(), Error> {
     Ok(())
 }
 
-/// What some bodies are together.
+/// The mass, centre and moments of some bodies.
 struct Node {
     mass: f64,
     center: DVec3,

@@ -27,7 +27,7 @@ const PHASE: Field<f32> = Field::new("thermostat_phase");
 const KINETIC: Field<Vec4> = Field::new("thermostat_kinetic");
 /// The sum of these.
 const TOTAL: Field<Vec4> = Field::new("thermostat_total");
-/// What velocities change by, as a part of them.
+/// The relative change of velocities.
 const CHANGE: Field<f32> = Field::new("thermostat_change");
 
 /// `nose_hoover`: v' = a − ξ v, ξ' = (2 K / N k T − 1) / τ², with N degrees of freedom of all particles that are free and have
@@ -112,7 +112,7 @@ impl NoseHoover {
     }
 }
 
-/// A kernel of one invocation for each particle, which knows which ones are free.
+/// A kernel of one invocation for each particle, with the information which ones are free.
 fn each(name: &str, file: Source, problem: &Problem, reference: Reference) -> Result<Kernel, Error> {
     let (holding, tables) = problem.holding();
     let shader = Shader::join(&[crate::shader!("world.wgsl"), holding, file])?;

@@ -21,11 +21,11 @@ pub type Uniforms = Vec<(&'static str, Vec<u8>)>;
 type OfEach = dyn Fn(&Particle, &World, DVec3, DVec3) -> DVec3 + Send + Sync;
 type OfLinks = dyn Fn(&Particle, &Particle, DVec3, &Half, DVec3, DVec3) -> DVec3 + Send + Sync;
 
-/// The product of a law's Jacobian with a change of position and a change of velocity. Its WGSL has it as `fn jvp`.
+/// The product of a law's Jacobian with a change of position and a change of velocity. In WGSL it is `fn jvp`.
 #[derive(Clone)]
 pub enum Jacobian {
-    /// `(me, world, dx, dv)`: the change of acceleration when I move by dx and my velocity changes by dv. Of what is not
-    /// symmetric the symmetric part is taken.
+    /// `(me, world, dx, dv)`: the change of acceleration when I move by dx and my velocity changes by dv. If it is not symmetric, its
+    /// symmetric part is used.
     Each(Arc<OfEach>),
     /// `(me, you, r, link, dx, dv)`: the change of the force on me when you move by dx and by dv in velocity, relative to
     /// me. It must be symmetric, and must not be negative.
@@ -33,13 +33,13 @@ pub enum Jacobian {
 }
 
 impl Law {
-    /// The same law with a Jacobian: implicit integrators take it into their matrix.
+    /// The same law with a Jacobian, which implicit integrators include in their matrix.
     #[must_use]
     pub fn with_jacobian(self, jacobian: Jacobian) -> Self {
         Self { jacobian: Some(jacobian), ..self }
     }
-    /// The kernel that adds a law of each particle alone to the rows of the system, for a part of the step; `start` where
-    /// that is expanded about its start.
+    /// The kernel that adds a law of each particle alone to the rows of the system, for a part of the step; `start`: the law is linearized
+    /// about the start of the step.
     ///
     /// # Errors
     /// When it has no such Jacobian, or its WGSL does not compile.
@@ -78,10 +78,10 @@ impl Law {
             tables: Vec::new(),
         })
     }
-    /// Joins files with the law, which calls its `jvp`; gives the shader and the law's own uniform blocks.
+    /// Joins files with the law, whose `jvp` they call; returns the shader and the law's own uniform blocks.
     ///
     /// # Errors
-    /// When the law has no `jvp` in its WGSL, or that does not compile.
+    /// When the law has no `jvp` in its WGSL, or the WGSL does not compile.
     pub fn beside(&self, files: &[Source], problem: &Problem) -> Result<(Arc<Shader>, Uniforms), Error> {
         let signature = match self.over {
             Over::Each => "fn jvp(me: Particle, dx: vec3f, dv: vec3f) -> vec3f",
@@ -93,7 +93,7 @@ impl Law {
         all.extend_from_slice(files);
         all.extend(self.files(problem));
         let shader = Shader::join(&all)?;
-        // A Jacobian may have no use for the parameters.
+        // A Jacobian may not use the parameters.
         let uniforms = match shader.reflection().binding("params") {
             Some(_) => self.uniforms(&shader)?,
             None => Vec::new(),

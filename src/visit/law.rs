@@ -34,21 +34,20 @@ pub struct Law {
     pub pairs: Option<PairTable>,
     /// Tables of data, by the names under which its WGSL binds them.
     pub tables: Vec<Table>,
-    /// The columns that it writes; `acceleration` unless said otherwise. Every other one it binds as
-    /// `var<storage, read_write>` under its name. Without `acceleration` its `finish` returns nothing, and over `each` it has
-    /// `fn update(me: Particle)` in place of `force`.
+    /// The columns that it writes; by default `acceleration`. Each other column is bound as `var<storage, read_write>` under its name.
+    /// Without `acceleration` its `finish` returns nothing, and over `each` it has `fn update(me: Particle)` in place of `force`.
     pub into: Vec<Name>,
-    /// The visit's reference around the law's; `None` only for a user's law.
+    /// The visit's reference, with the law's inside; `None` only for a user's law.
     pub reference: Option<Reference>,
     /// Whether the forces of a pair are equal and opposite, so that momentum is conserved.
     pub reciprocal: bool,
-    /// What it offers to implicit integrators.
+    /// Its Jacobian for implicit integrators, if it has one.
     pub jacobian: Option<Jacobian>,
     /// Its approximation of a far group, over `tree`.
     pub distant: Distant,
-    /// Over `links`: its reference by the tables that a problem has.
+    /// Over `links`: its reference for the tables of a problem.
     pub tied: Option<ByTables>,
-    /// Over `near`: its search, where it says more of that than a range.
+    /// Over `near`: its search, if it needs more than a range.
     pub search: Option<Search>,
 }
 
@@ -57,7 +56,7 @@ pub struct Law {
 pub struct Distant {
     /// Its WGSL; without it a group is evaluated as one particle.
     pub wgsl: Option<Source>,
-    /// The reference that walks the same tree as the device.
+    /// The reference that opens the same nodes as the device.
     pub walk: Option<Reference>,
     /// The accelerations of some targets by direct summation.
     pub sample: Option<Sample>,
@@ -65,7 +64,7 @@ pub struct Distant {
     pub images: bool,
 }
 
-/// Files that a law has by calling a function of theirs, and not having one of that name itself.
+/// Files that are joined with a law that calls a function of theirs and does not define it.
 const ON_CALL: [(&str, Source); 8] = [
     ("is_of", crate::shader!("law/species.wgsl")),
     ("unit", crate::shader!("law/steering.wgsl")),
@@ -97,7 +96,7 @@ impl Law {
             search: None,
         }
     }
-    /// A law of each particle alone; `rule(me, world)` gives acceleration and potential per unit mass.
+    /// A law of each particle alone; `rule(me, world)` returns acceleration and potential per unit mass.
     pub fn each(
         name: &str,
         wgsl: Source,
@@ -106,7 +105,7 @@ impl Law {
     ) -> Self {
         Self::plain(name, Over::Each, wgsl, params, reference::each(rule))
     }
-    /// A law of all pairs that adds up: [`Law::between`] over [`Over::Pairs`].
+    /// A pairwise additive law of all pairs: [`Law::between`] over [`Over::Pairs`].
     pub fn pairs(
         name: &str,
         wgsl: Source,
@@ -115,8 +114,8 @@ impl Law {
     ) -> Self {
         Self::between(name, Over::Pairs, wgsl, params, rule)
     }
-    /// A law that adds up; `rule(me, you, r)`, with r from me to you, gives what you add to my acceleration and
-    /// potential per unit mass. What you do to me, I do to you.
+    /// A pairwise additive law; `rule(me, you, r)`, with r from me to you, returns your contribution to my acceleration and potential per
+    /// unit mass. Forces are equal and opposite.
     pub fn between(
         name: &str,
         over: Over,
@@ -127,10 +126,10 @@ impl Law {
         let gather = move |me: &Particle, you: &Particle, r, sum: &mut DVec4| *sum += rule(me, you, r);
         Self { reciprocal: true, ..Self::gathering(name, over, wgsl, params, gather, |_, sum, _| *sum) }
     }
-    /// A law between two that depends on the box too, and that knows what a far group does: `rule(me, you, r, world)` and
-    /// `far(me, group, r, world)`, with r from me to you or to the group's centre of mass, give acceleration and potential
-    /// per unit mass. `distant` is the WGSL of the latter, `fn distant(me: Particle, you: Group, r: vec3f, sum:
-    /// ptr<function, Sum>)`; without it the group is evaluated as one particle.
+    /// A pairwise law that may depend on the box, with an approximation of far groups: `rule(me, you, r, world)` and
+    /// `far(me, group, r, world)`, with r from me to you or to the group's centre of mass, return acceleration and potential per unit mass.
+    /// `distant` is the WGSL of the latter, `fn distant(me: Particle, you: Group, r: vec3f, sum: ptr<function, Sum>)`; without it the group
+    /// is evaluated as one particle.
     pub fn attracting(
         name: &str,
         over: Over,
@@ -155,8 +154,8 @@ impl Law {
             ..Self::plain(name, over, wgsl, params, reference)
         }
     }
-    /// A law that computes another quantity from its neighbours than a sum of accelerations; `gather(me, you, r, sum)` adds
-    /// each neighbour, in any order, and `finish(me, sum, world)` gives acceleration and potential per unit mass.
+    /// A law that computes a quantity other than a sum of accelerations from the neighbours; `gather(me, you, r, sum)` adds each neighbour,
+    /// in any order, and `finish(me, sum, world)` returns acceleration and potential per unit mass.
     pub fn gathering<S: Default>(
         name: &str,
         over: Over,
@@ -168,8 +167,8 @@ impl Law {
         let gather = move |me: &Particle, you: &Particle, r, _: &World, sum: &mut S| gather(me, you, r, sum);
         Self::plain(name, over, wgsl, params, reference::gathering(over, gather, finish))
     }
-    /// The same of a law that writes columns: `finish(me, sum, world, outcome)` says which values they get. `into` names all
-    /// that it writes, `acceleration` too where it gives one.
+    /// The same for a law that writes columns: `finish(me, sum, world, outcome)` sets their values. `into` names all that it writes,
+    /// including `acceleration` if it computes one.
     pub fn computing<S: Default>(
         name: &str,
         over: Over,
@@ -182,7 +181,7 @@ impl Law {
         let into = into.iter().map(|name| Name::from(*name)).collect();
         Self { into, ..Self::plain(name, over, wgsl, params, reference::computing(over, gather, finish)) }
     }
-    /// A law of each particle alone that writes columns; `rule(me, world, outcome)` says which values they get.
+    /// A law of each particle alone that writes columns; `rule(me, world, outcome)` sets their values.
     pub fn updating(
         name: &str,
         wgsl: Source,
@@ -193,11 +192,11 @@ impl Law {
         let into = into.iter().map(|name| Name::from(*name)).collect();
         Self { into, ..Self::plain(name, Over::Each, wgsl, params, reference::updating(rule)) }
     }
-    /// A law over [`Over::List`] that keeps history of pairs, as friction at a contact does; `gather(me, you, r, world, memory, sum)` takes
-    /// a neighbour in, and `finish(me, sum, world, outcome)` is that of [`Law::computing`]. Its WGSL has, beside what all laws have,
-    /// `fn recall(you: Particle, word: u32) -> f32`, what the last step left, and `fn remember(you: Particle, word: u32, value: f32)`,
-    /// what this step leaves. A pair that is out of range, or for which a step leaves nothing, begins with zeros. Each of the two has
-    /// words of its own.
+    /// A law over [`Over::List`] that keeps history of pairs, such as friction at a contact; `gather(me, you, r, world, memory, sum)` adds
+    /// a neighbour, and `finish(me, sum, world, outcome)` is that of [`Law::computing`]. Its WGSL has, in addition to the usual functions,
+    /// `fn recall(you: Particle, word: u32) -> f32`, the value stored by the last step, and
+    /// `fn remember(you: Particle, word: u32, value: f32)`, which stores a value for the next step. A pair that is out of range, or for
+    /// which a step stores nothing, begins with zeros. Each of the two particles has words of its own.
     pub fn remembering<S: Default>(
         name: &str,
         over: (f64, Option<f64>, u32),
@@ -212,8 +211,8 @@ impl Law {
         let into = into.iter().map(|name| Name::from(*name)).collect();
         Self { into, ..Self::plain(name, Over::List { range, skin, slots }, wgsl, params, reference) }
     }
-    /// A law of springs; `gather(me, you, r, link, sum)` takes one in, with r from me to you, and `finish(me, sum)` gives
-    /// acceleration and potential per unit mass, of which each end holds half.
+    /// A law of springs; `gather(me, you, r, link, sum)` adds one, with r from me to you, and `finish(me, sum)` returns acceleration and
+    /// potential per unit mass, half of which belongs to each end.
     pub fn links<S: Default>(
         name: &str,
         wgsl: Source,
@@ -225,8 +224,8 @@ impl Law {
         let reference = tied(Tables::None);
         Self { reciprocal: true, tied: Some(tied), ..Self::plain(name, Over::Links, wgsl, params, reference) }
     }
-    /// A law of joints or triangles; `rule(corners, place, stiffness, world)` gives the force on the corner of that
-    /// place, and the energy of the whole, of which each corner holds a third.
+    /// A law of joints or triangles; `rule(corners, place, stiffness, world)` returns the force on the corner with index `place`, and the
+    /// energy of the whole, a third of which belongs to each corner.
     pub fn corners(
         name: &str,
         over: Over,
@@ -236,7 +235,7 @@ impl Law {
     ) -> Self {
         Self::plain(name, over, wgsl, params, reference::corners(over, rule))
     }
-    /// Joins the law with its visit, for such a problem.
+    /// The kernel of the law with its visit, for a problem.
     ///
     /// # Errors
     /// [`Error::Shader`] when the WGSL does not compile, [`Error::Scene`] when a parameter is missing or unknown.
@@ -258,44 +257,44 @@ impl Law {
             Over::Links | Over::Joints | Over::Triangles => links::kernel(self, problem),
         }
     }
-    /// The grid that it searches, if it searches one, and whether it asks there for velocities.
+    /// The grid that it searches, if any, and whether it reads velocities there.
     ///
     /// # Errors
-    /// [`Error::Scene`] when its range is none.
+    /// [`Error::Scene`] when its range is invalid.
     pub fn grid(&self, problem: &Problem) -> Result<Option<(Grid, bool)>, Error> {
         near::grid(&self.settled(problem), problem)
     }
-    /// Whether it reads velocities, its own or those of others.
+    /// Whether it reads velocities, of the particle or of neighbours.
     ///
     /// # Errors
     /// As [`Law::kernel`].
     pub fn depends_on_velocity(&self, problem: &Problem) -> Result<bool, Error> {
         Ok(self.clone().kernel(problem)?.names(VELOCITY.name))
     }
-    /// The same law, of all images in a periodic box.
+    /// The same law, including all images in a periodic box.
     #[must_use]
     pub fn of_all_images(mut self) -> Self {
         self.distant.images = true;
         self
     }
-    /// What it visits for such a problem.
+    /// Its visit for a problem.
     #[must_use]
     pub fn chosen(&self, problem: &Problem) -> Over {
         match self.over {
-            // Half a box away nearest images jump, and no group can be evaluated as one there.
+            // At half a box the nearest image jumps, and no group can be evaluated as one there.
             Over::Tree { auto: true, .. } if problem.bounds.has(Side::Periodic) && !self.distant.images => Over::Pairs,
             over => over.chosen(problem).faster(self.asks_velocities(), problem),
         }
     }
-    /// Whether it reads velocities of neighbours or its own.
+    /// Whether it reads velocities, of neighbours or of the particle.
     pub(super) fn asks_velocities(&self) -> bool {
         self.wgsl.says(&["velocity_of", "("])
     }
-    /// The same law over the cell list or the kept list, where that is left open.
+    /// The same law with [`Over::Auto`] resolved: over the cell list or the kept list.
     pub(super) fn settled(&self, problem: &Problem) -> Self {
         Self { over: self.over.faster(self.asks_velocities(), problem), ..self.clone() }
     }
-    /// The tree that it walks, if it walks one.
+    /// The tree that it walks, if any.
     #[must_use]
     pub fn tree(&self, problem: &Problem) -> Option<Tree> {
         match self.chosen(problem) {
@@ -314,12 +313,12 @@ impl Law {
             ))),
         }
     }
-    /// Whether it gives an acceleration.
+    /// Whether it computes an acceleration.
     #[must_use]
     pub fn accelerates(&self) -> bool {
         self.into.iter().any(|name| name == ACCELERATION.name)
     }
-    /// How its WGSL ends.
+    /// The end of its WGSL.
     pub(super) fn finish(&self) -> (&'static str, &'static str) {
         let text = if self.accelerates() {
             "fn finish(me: Particle, sum: Sum) -> vec4f"
@@ -328,7 +327,7 @@ impl Law {
         };
         ("finish", text)
     }
-    /// What becomes of what it gives.
+    /// The file that stores its result.
     pub(super) fn result(&self) -> Source {
         match (self.accelerates(), self.over) {
             (false, _) => crate::shader!("slots/result/columns.wgsl"),
@@ -336,9 +335,9 @@ impl Law {
             (true, _) => crate::shader!("slots/result/added.wgsl"),
         }
     }
-    /// The functions of a law over any visit but `each`.
+    /// Checks the functions of a law over any visit but `each`.
     pub(super) fn requires_gather(&self) -> Result<(), Error> {
-        // Those of a method say it in several files.
+        // Laws of a method have these functions in several files.
         if self.search.is_some() {
             return Ok(());
         }
@@ -397,7 +396,7 @@ impl Law {
         }
         Ok(())
     }
-    /// Whether it writes what it says, and every column that it binds is of the kind that is declared.
+    /// Checks whether it writes the columns that it names, and whether every bound column is of the declared kind.
     fn check_columns(&self, kernel: &mut Kernel, problem: &Problem) -> Result<(), Error> {
         let file = &self.wgsl.file;
         let mut sizes = Vec::new();
@@ -409,7 +408,7 @@ impl Law {
                     self.name
                 )));
             }
-            // Of no particles there is nothing to write.
+            // Without particles nothing is written.
             let sorted = self.search.as_ref().and_then(|search| search.field(name));
             let field = sorted.as_ref().unwrap_or(name);
             if !kernel.passes.is_empty() && !kernel.writes().iter().any(|written| written == field) {
@@ -421,7 +420,7 @@ impl Law {
         }
         for (name, binding) in kernel.bindings() {
             let Some(column) = problem.columns.get(name).filter(|column| !column.is_packed()) else { continue };
-            // A struct of a method's may hold all numbers of a particle.
+            // A struct of a method may contain all numbers of a particle.
             let struct_of = |k: u32| self.search.is_some() && k > 1 && binding.stride == 4 * u64::from(k);
             if matches!(column.shape, crate::kernel::Shape::Slots(k) if struct_of(k)) {
                 continue;
@@ -467,16 +466,16 @@ impl Law {
         }
         Ok(())
     }
-    /// Refuses a function of a user's that is not as its visit calls it.
+    /// Refuses a user's function that differs from the one that its visit calls.
     fn agrees(&self, signature: &str) -> Result<(), Error> {
         let wrong = self.wgsl.law.then(|| self.wgsl.mismatch(signature)).flatten();
         wrong.map_or(Ok(()), |message| Err(Error::Shader { message }))
     }
-    /// Whether it leaves particles out of a search; without `acts_on` of its own it acts on all.
+    /// The default `acts_on`, which includes all particles, for a law without one of its own.
     pub(super) fn choice(&self) -> Option<Source> {
         (!self.says(&["fn", "acts_on", "("])).then_some(crate::shader!("visit/acts_on_all.wgsl"))
     }
-    /// What the law leaves to the usual: a sum of accelerations; and what it calls for.
+    /// The law's own file and those that it relies on: a sum of accelerations, unless it has one, and the functions that it calls.
     pub(super) fn files(&self, problem: &Problem) -> Vec<Source> {
         let mut files = vec![self.turns()];
         if self.over != Over::Each && !self.says(&["struct", "Sum", "{"]) {

@@ -1,4 +1,4 @@
-//! Each particle is evaluated with those that it is linked to: by springs, or as corners of joints and triangles.
+//! Each particle is evaluated with the particles that it is linked to: by springs, or as corners of joints and triangles.
 
 use std::sync::Arc;
 
@@ -7,12 +7,12 @@ use crate::error::Error;
 use crate::kernel::{Kernel, Name, Pass, Problem, Shader};
 use crate::links::Network;
 
-/// Where each particle's links begin, and the links; for joints and triangles the names in the shader stand for others.
+/// The start of each particle's links, and the links; for joints and triangles these names of the shader are bound to other tables.
 pub const LINK_START: &str = "link_start";
 /// See [`LINK_START`].
 pub const LINK: &str = "link";
 
-/// The tables that a visit may read: as shaders and as plans know them, and their words.
+/// The tables that a visit may read: their names in shaders and in plans, and their words.
 fn tables(over: Over, network: &Network) -> Vec<(&'static str, &'static str, &Arc<Vec<u32>>)> {
     match over {
         Over::Joints => {
@@ -37,7 +37,7 @@ pub fn bind(mut kernel: Kernel, over: Over, problem: &Problem) -> Kernel {
     for (inside, field, words) in tables(over, &problem.network) {
         let stride = kernel.passes.iter().flat_map(|pass| &pass.shader.reflection().bindings);
         let stride = stride.filter(|binding| binding.name == inside).map(|binding| binding.stride).max();
-        // A law may have no use for a table.
+        // A law may not use a table.
         let Some(stride) = stride else { continue };
         kernel.sizes.push((field.into(), (4 * words.len() as u64) / stride.max(1)));
         kernel.tables.push((field.into(), words.clone()));

@@ -1,4 +1,4 @@
-//! Each particle and its neighbours on the list, which is kept over steps.
+//! Each particle and its neighbours on the list, which is kept over several steps.
 
 mod build;
 mod reference;
@@ -13,22 +13,22 @@ use crate::neighbors::{HISTORY, LIST, List};
 
 /// Rows of one dispatch, at most. It is an integer of workgroups.
 const ROWS: u32 = 1 << 20;
-/// The skin where none is given, as a part of the range.
+/// The default skin, as a part of the range.
 const SKIN: f64 = 0.2;
-/// Neighbours that there is room for where they have not been counted.
+/// The capacity for neighbours where they have not been counted.
 pub const UNCOUNTED: u32 = 128;
 
 /// The list that laws share, if any is over one: it reaches as far as the longest range and skin.
 ///
 /// # Errors
-/// [`Error::Scene`] when a range or a skin is none.
+/// [`Error::Scene`] when a range or a skin is invalid.
 pub fn shared(laws: &[Law], problem: &Problem) -> Result<Option<ListShape>, Error> {
     let mut shape: Option<ListShape> = None;
     let mut reach = 0.0_f64;
     for law in laws {
         let Over::List { range, skin, slots } = law.over.faster(law.asks_velocities(), problem) else { continue };
         let own = ListShape { range, skin: skin.unwrap_or(SKIN * range), words: slots, capacity: 4 };
-        // What is wrong with it is said of it alone.
+        // Errors of a law's own list are reported for that law.
         let own = List::new(own, problem)?.shape;
         reach = reach.max(own.reach());
         let known = shape.unwrap_or(own);
@@ -45,7 +45,7 @@ pub fn shared(laws: &[Law], problem: &Problem) -> Result<Option<ListShape>, Erro
     Ok(shape.map(|shape| shape.with_room(UNCOUNTED, problem.capacity)))
 }
 
-/// The kernel of a law over the list, with so many words of history.
+/// The kernel of a law over the list, with `slots` words of history.
 pub fn kernel(law: Law, range: f64, slots: u32, problem: &Problem) -> Result<Kernel, Error> {
     law.requires_gather()?;
     let asks = ["recall", "remember"].into_iter().find(|function| law.wgsl.says(&[function, "("]));

@@ -8,10 +8,10 @@ use crate::neighbors::{Grid, SORTED_ID, SORTED_POSITION, SORTED_VELOCITY, STARTS
 /// Targets of one dispatch, at most. It is an integer of workgroups.
 const TARGETS: u32 = 1 << 20;
 
-/// Neighbours that one particle can have in a search of the nearest, at most: their list is held in registers.
+/// The maximum number of neighbours of one particle in a search of the nearest: their list is kept in registers.
 pub const MOST_NEAREST: u32 = 16;
 
-/// The grid that a law searches, and whether it asks there for velocities.
+/// The grid that a law searches, and whether it reads velocities there.
 pub fn grid(law: &Law, problem: &Problem) -> Result<Option<(Grid, bool)>, Error> {
     if let Some(search) = &law.search {
         return Ok(Some((search.grid.clone(), true)));
@@ -24,37 +24,37 @@ pub fn grid(law: &Law, problem: &Problem) -> Result<Option<(Grid, bool)>, Error>
                     format!("`{}` searches {count} nearest neighbours: 1 to {MOST_NEAREST} are possible", law.name);
                 return Err(Error::Scene(text));
             }
-            // So many that the first cube of 27 cells holds about three times the list.
+            // Such that the first cube of 27 cells contains about three times the list.
             Ok(Some((Grid::sparse(f64::from(count) / 3.0, problem), false)))
         }
         _ => Ok(None),
     }
 }
 
-/// What a search loads of a neighbour.
+/// The data of a neighbour that a search loads.
 #[derive(Debug, Clone)]
 pub struct Candidate {
     /// The file with `struct Particle` and `fn candidate(slot: u32) -> Particle`.
     pub particle: Source,
-    /// The file with `fn broadcast0(q: Particle) -> Particle` to `broadcast7`: what lane 0 to 7 has loaded. It is joined only
-    /// with the walk of subgroups, for devices without them refuse it.
+    /// The file with `fn broadcast0(q: Particle) -> Particle` to `broadcast7`: the particle loaded by lane 0 to 7. It is joined only with
+    /// the walk of subgroups, since devices without subgroups refuse it.
     pub broadcast: Source,
 }
 
 impl Candidate {
-    /// Place and mass.
+    /// Position and mass.
     pub const STILL: Self = Self {
         particle: crate::shader!("visit/near_still.wgsl"),
         broadcast: crate::shader!("visit/near_broadcast.wgsl"),
     };
-    /// Place, mass and velocity.
+    /// Position, mass and velocity.
     pub const MOVING: Self = Self {
         particle: crate::shader!("visit/near_moving.wgsl"),
         broadcast: crate::shader!("visit/near_broadcast.wgsl"),
     };
 }
 
-/// What all neighbours in range are searched with.
+/// The files for a search of all neighbours in range.
 pub fn search(grid: &Grid, machine: &Machine, candidate: Candidate) -> Vec<Source> {
     let by = match grid.of {
         Some(_) => crate::shader!("visit/near_ids.wgsl"),
@@ -68,7 +68,7 @@ pub fn search(grid: &Grid, machine: &Machine, candidate: Candidate) -> Vec<Sourc
     files
 }
 
-/// What every search is made of.
+/// The files of every search.
 pub fn ground() -> Vec<Source> {
     vec![
         crate::shader!("world.wgsl"),
@@ -117,7 +117,7 @@ pub fn kernel(law: Law, problem: &Problem) -> Result<Kernel, Error> {
     Ok(kernel)
 }
 
-/// The dispatches of a search, each of some of the targets, which are the first so many.
+/// The dispatches of a search for the first `targets` targets, each for a part of them.
 pub fn passes(grid: &Grid, all: &Pass, targets: u32, problem: &Problem) -> Result<Vec<Pass>, Error> {
     let fields = [STARTS, SORTED_ID, SORTED_POSITION, SORTED_VELOCITY].map(|name| grid.field(name));
     let narrow = all.shader.reflection().overrides.contains_key("NARROW") && grid.narrow(problem);
@@ -141,7 +141,7 @@ pub fn passes(grid: &Grid, all: &Pass, targets: u32, problem: &Problem) -> Resul
     Ok(passes)
 }
 
-/// A search does not make these, but it binds them: they are as long as the grid makes them.
+/// The sizes of the fields that a search binds but does not create: those of the grid.
 pub fn sizes(grid: &Grid) -> Vec<(Name, u64)> {
     vec![(grid.field(STARTS).1, u64::from(grid.bins())), (ALARM.name.into(), ALARM_WORDS as u64)]
 }

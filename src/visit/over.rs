@@ -10,7 +10,7 @@ pub enum Over {
     Each,
     /// All pairs, each at its nearest image.
     Pairs,
-    /// All pairs within a range, by brute force: what [`Near`](Over::Near) finds through a cell list.
+    /// All pairs within a range, by brute force: the same pairs that [`Near`](Over::Near) finds through a cell list.
     Within {
         /// The range \[length\].
         range: f64,
@@ -23,21 +23,21 @@ pub enum Over {
         /// avoids visiting them.
         of: Option<u32>,
     },
-    /// The same, found on a list of the neighbours within range + skin that is kept over steps.
+    /// The same pairs, found on a list of the neighbours within range + skin that is kept over several steps.
     List {
         /// The range \[length\].
         range: f64,
-        /// How much farther the list reaches \[length\]; `None`: a part of the range.
+        /// The skin: the distance by which the list exceeds the range \[length\]; `None`: a fixed part of the range.
         skin: Option<f64>,
         /// Words of history that the law keeps for each pair.
         slots: u32,
     },
-    /// All pairs within a range, through whichever of the cell list and the kept list is the faster one for as many neighbours as
-    /// particles have at the start: see [`few_neighbors`](crate::visit::few_neighbors).
+    /// All pairs within a range, through the cell list or the kept list, whichever is faster for the number of neighbours at the start: see
+    /// [`few_neighbors`](crate::visit::few_neighbors).
     Auto {
         /// The range \[length\].
         range: f64,
-        /// How much farther a kept list reaches \[length\]; `None`: a part of the range.
+        /// The skin of a kept list \[length\]; `None`: a fixed part of the range.
         skin: Option<f64>,
     },
     /// Each particle with its k nearest neighbours; of two at the same distance the lower id comes first.
@@ -47,27 +47,27 @@ pub enum Over {
     },
     /// All pairs, far groups approximated as one, found through a tree.
     Tree {
-        /// When a group is too near for that.
+        /// The criterion by which a group is too near for that.
         opening: Opening,
-        /// A group is too near, too, where any of it may be nearer than this \[length\].
+        /// A group is also too near if any of it may be nearer than this \[length\].
         core: f64,
-        /// Only where that is faster than direct summation.
+        /// Only where this is faster than direct summation.
         auto: bool,
     },
-    /// Each particle with those that it is linked to.
+    /// Each particle with its link partners.
     Links,
-    /// Each particle with the joints that it is a part of.
+    /// Each particle with its joints.
     Joints,
     /// Each particle with the triangles that it is a corner of.
     Triangles,
 }
 
 impl Over {
-    /// The scene's words for the visits.
+    /// The names of the visits in scenes.
     pub const NAMES: &'static [&'static str] =
         &["each", "pairs", "within", "near", "list", "nearest", "tree", "auto", "links", "joints", "triangles"];
 
-    /// The scene's word for it.
+    /// Its name in scenes.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -96,16 +96,16 @@ impl Over {
     }
 }
 
-/// Up to so many neighbours within range, on average at the start, a kept list is faster than the cell list, for laws that ask for
-/// velocities, or for others. Measured on lavapipe by `cargo bench --bench visits`: flocks gain by a list, and laws of positions alone
-/// lose. Hardware is not measured, and has the cell list.
+/// The mean number of neighbours within range at the start up to which a kept list is faster than the cell list, for laws that read
+/// velocities, or for others. Measured on lavapipe by `cargo bench --bench visits`: flocks are faster with a list, and laws of positions
+/// alone are slower. GPUs have not been measured, and use the cell list.
 #[must_use]
 pub fn few_neighbors(machine: &Machine, moving: bool) -> f64 {
     if machine.software && moving { 20.0 } else { 0.0 }
 }
 
 impl Over {
-    /// The faster one of the cell list and the kept list, where it is left open.
+    /// The faster one of the cell list and the kept list, for `Auto`.
     pub(super) fn faster(self, moving: bool, problem: &Problem) -> Self {
         let Self::Auto { range, skin } = self else { return self };
         let few = few_neighbors(&problem.machine, moving);

@@ -1,4 +1,4 @@
-//! Parameters of pairs of species: a symmetric table, whose every pair must be given.
+//! Parameters of pairs of species: a symmetric table that must contain every pair.
 
 use std::collections::BTreeSet;
 use std::sync::Arc;
@@ -8,10 +8,10 @@ use crate::kernel::{Access, Binding, Scalar, Table};
 use crate::settings::Pair;
 
 /// The name of the table in WGSL: `var<storage, read> pair_table: array<Pair>`, or, where a law has no storage buffer to spare,
-/// `var<uniform> pair_table: array<Pair, 64>` of 8 species. The row of species a and b stands at
-/// `a * species + b`, with `species` the number of rows on a side: `pair_index(a, b)` gives it.
+/// `var<uniform> pair_table: array<Pair, 64>` for 8 species. The row of species a and b has the index `a * species + b`, with `species` the
+/// number of rows on a side: `pair_index(a, b)` returns it.
 pub const PAIR_TABLE: &str = "pair_table";
-/// Species that a table may distinguish, at most.
+/// The maximum number of species of a table.
 pub const MOST_SPECIES: u32 = 256;
 
 /// Parameters of pairs of species.
@@ -47,7 +47,7 @@ impl From<&[Pair]> for PairTable {
 }
 
 impl PairTable {
-    /// The pairs of some species that it lacks, each with the lower one first.
+    /// The missing pairs of some species, each with the lower one first.
     #[must_use]
     pub fn missing(&self, present: &[u32]) -> Vec<[u32; 2]> {
         let present: BTreeSet<u32> = present.iter().copied().collect();
@@ -68,7 +68,7 @@ impl PairTable {
     /// The words of the table, for the species that particles have.
     ///
     /// # Errors
-    /// [`Error::Scene`] that names a pair that is missing, given twice, or beyond the largest species.
+    /// [`Error::Scene`] that names a pair that is missing, given twice, or beyond the maximum species.
     pub fn words(&self, law: &str, binding: &Binding, present: &[u32]) -> Result<Table, Error> {
         let side = self.side(present);
         if side > MOST_SPECIES {
@@ -102,7 +102,7 @@ impl PairTable {
                 rows.join(", ")
             )));
         }
-        // A uniform block has the size that its shader says.
+        // A uniform block has the size declared in its shader.
         if binding.access == Access::Uniform {
             let room = usize::try_from(binding.stride).unwrap_or(0);
             if bytes.len() > room {

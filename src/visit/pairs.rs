@@ -7,25 +7,25 @@ use crate::error::Error;
 use crate::kernel::{Kernel, Machine, Pass, Problem, Scalar, Shader, Source, Threads};
 use crate::neighbors::checked;
 
-/// Meetings in one dispatch, at most. At 10 billion a second (a small GPU) that is 0.1 s; a large one needs half a millisecond.
+/// The maximum number of pair evaluations in one dispatch. At 10 billion a second (a small GPU) that is 0.1 s; a large one needs half a millisecond.
 const MEETINGS: u64 = 1 << 30;
-/// Sources that one invocation evaluates in one dispatch, at most: half of the 65 535 loop iterations that lavapipe allows.
+/// The maximum number of sources that one invocation evaluates in one dispatch: half of the 65 535 loop iterations that lavapipe allows.
 const SOURCES: u32 = 1 << 15;
-/// Layers, at most: more cost more to add than they gain.
+/// The maximum number of layers: more cost more to add up than they gain.
 const LAYERS: u32 = 64;
 
-/// How pair evaluations of `count` particles are cut.
+/// The division of the pair evaluations of `count` particles.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Cut {
-    /// Slices of the sources that are evaluated side by side, each by invocations of its own.
+    /// Slices of the sources that are evaluated in parallel, each by invocations of its own.
     pub layers: u32,
     /// Sources in one slice of one dispatch; a multiple of the block.
     pub slice: u32,
 }
 
 impl Cut {
-    /// Enough layers to keep the machine busy, then dispatches short enough; one invocation evaluates `sources` in one of them, at
-    /// most.
+    /// Enough layers to keep the machine busy, then dispatches that are short enough; one invocation evaluates at most `sources` in one of
+    /// them.
     #[must_use]
     pub fn new(count: u32, targets: u32, block: u32, machine: &Machine, sources: u32) -> Self {
         let blocks = count.div_ceil(block).max(1);
@@ -104,7 +104,7 @@ pub fn kernel(law: Law, problem: &Problem) -> Result<Kernel, Error> {
         let shader = join(crate::shader!("visit/pairs_finish.wgsl"), &law, problem)?;
         let mut constants = vec![("LAYERS", f64::from(cut.layers))];
         constants.extend(law.mark());
-        // What the parameters are for may all be in `gather`.
+        // All uses of the parameters may be in `gather`.
         let used = shader.reflection().binding("params").is_some();
         let uniforms = if used { params } else { Vec::new() };
         let work = u64::from(count) * u64::from(cut.layers);

@@ -1,4 +1,4 @@
-//! A particle as a law's reference sees it: what `Particle` is in WGSL, and every column by its name.
+//! A particle as a law's reference sees it: like `Particle` in WGSL, and with every column by its name.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -9,7 +9,7 @@ use crate::error::Error;
 use crate::kernel::{Array, Element, Host, ID, LIFE, POSITION, SPECIES, VELOCITY};
 use crate::life::Life;
 
-/// All particles of a host as they are at a moment: what is written later does not change them.
+/// A snapshot of all particles of a host: later writes do not change it.
 pub struct View<'a> {
     arrays: BTreeMap<&'a str, Arc<Array>>,
     count: usize,
@@ -41,7 +41,7 @@ impl<'a> View<'a> {
         let count = host.read(POSITION)?.len().min(host.world().count as usize);
         Ok(Self { arrays, count })
     }
-    /// Arrays by particle that the host has in another order.
+    /// Adds arrays by particle that the host stores in another order.
     pub(super) fn extend(&mut self, arrays: Vec<(&'static str, Array)>) {
         self.arrays.extend(arrays.into_iter().map(|(name, array)| (name, Arc::new(array))));
     }
@@ -70,7 +70,7 @@ impl<'a> View<'a> {
 }
 
 impl Particle<'_> {
-    /// Its id: its index, where the host has no ids.
+    /// Its id; its index, where the host has no ids.
     #[must_use]
     pub fn id(&self) -> u32 {
         self.whole(ID.name).unwrap_or_else(|| u32::try_from(self.index).unwrap_or(u32::MAX))
@@ -95,14 +95,14 @@ impl Particle<'_> {
     pub fn vector(&self, column: &str) -> Option<DVec4> {
         self.view.slice::<Vec4>(column).get(self.index).copied()
     }
-    /// Its numbers of a field of structs of them; nothing where the host has none.
+    /// Its numbers in a field of structs; empty where the host has none.
     #[must_use]
     pub fn numbers(&self, field: &str) -> &[f64] {
         let all = self.all(field);
         let width = all.len() / self.view.count.max(1);
         all.get(width * self.index..width * (self.index + 1)).unwrap_or_default()
     }
-    /// All numbers of a field, such as one of the system; nothing where the host has none.
+    /// All numbers of a field, such as one of the system; empty where the host has none.
     #[must_use]
     pub fn all(&self, field: &str) -> &[f64] {
         self.view.slice::<f32>(field)

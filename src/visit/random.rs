@@ -1,7 +1,7 @@
-//! Random numbers by counting: the reference of `shaders/law/random.wgsl`, word by word.
+//! Counter-based random numbers: the reference of `shaders/law/random.wgsl`, word by word.
 
-/// Four random words for a counter (pcg4d; Jarzynski & Olano, Journal of Computer Graphics Techniques 9(3), 2020). Laws
-/// count with id, step and seed, so that nothing is kept from step to step and no order of particles matters.
+/// Four random words for a counter (pcg4d; Jarzynski & Olano, Journal of Computer Graphics Techniques 9(3), 2020). Laws use id, step and
+/// seed as the counter, so that there is no state and the order of particles does not matter.
 #[must_use]
 pub fn pcg4d(counter: [u32; 4]) -> [u32; 4] {
     let v = counter.map(|word| word.wrapping_mul(1_664_525).wrapping_add(1_013_904_223));
@@ -16,7 +16,7 @@ fn mixed([mut x, mut y, mut z, mut w]: [u32; 4]) -> [u32; 4] {
     [x, y, z, w]
 }
 
-/// A word as a number from 0 on, below 1; f32 holds it.
+/// A word as a number in [0, 1); exact in f32.
 #[must_use]
 pub fn fraction(word: u32) -> f64 {
     f64::from(word >> 8) / 16_777_216.0
@@ -44,7 +44,7 @@ mod tests {
         assert!((fraction(1 << 31) - 0.5).abs() < 1e-15 && fraction(0).abs() < 1e-15 && fraction(u32::MAX) < 1.0);
     }
 
-    /// Neighbouring counters give numbers that have nothing to do with each other.
+    /// Neighbouring counters give uncorrelated numbers.
     #[test]
     fn neighbours_are_strangers() {
         const COUNT: u32 = 1 << 16;

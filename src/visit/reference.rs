@@ -1,4 +1,4 @@
-//! The references of visits: they look at all pairs, so that they cannot share a fault of the cell list.
+//! The references of visits: they evaluate all pairs, so that they cannot share a fault of the cell list.
 
 use std::sync::Arc;
 
@@ -86,7 +86,7 @@ fn meeting<S: Default>(
             let mut meet = |you: &Particle| {
                 gather(me, you, world.bounds.shortest(you.position - me.position), &world, &mut sum);
             };
-            // A particle that takes no part is in no cell list; where all pairs are evaluated, it has no mass.
+            // An inactive particle is in no cell list; where all pairs are evaluated, it has no mass.
             let searches =
                 |over| matches!(over, Over::Near { .. } | Over::Nearest { .. } | Over::List { .. } | Over::Auto { .. });
             let in_grid = searches(over);
@@ -116,7 +116,7 @@ fn meeting<S: Default>(
 /// The accelerations of chosen targets by direct summation, by their rows, and their shares of the potential per unit mass.
 pub type Sample = Arc<dyn Fn(&Host, &[usize]) -> Result<Vec<DVec4>, Error> + Send + Sync>;
 
-/// The same as [`gathering`] of a law that adds up, for some targets alone.
+/// Like [`gathering`] for a pairwise additive law, for some targets only.
 pub fn sample(rule: Arc<impl Fn(&Particle, &Particle, DVec3, &World) -> DVec4 + Send + Sync + 'static>) -> Sample {
     Arc::new(move |host, targets| {
         let view = View::of(host)?;
@@ -131,10 +131,10 @@ pub fn sample(rule: Arc<impl Fn(&Particle, &Particle, DVec3, &World) -> DVec4 + 
     })
 }
 
-/// The reference of a law over links that reads such tables.
+/// The reference of a law over links, given the tables that it reads.
 pub type ByTables = Arc<dyn Fn(Tables) -> Reference + Send + Sync>;
 
-/// Those that are linked, in the order of the tables.
+/// The linked particles, in the order of the tables.
 pub fn links<S: Default>(
     gather: impl Fn(&Particle, &Particle, DVec3, &Half, &mut S) + Send + Sync + 'static,
     finish: impl Fn(&Particle, &S) -> DVec4 + Send + Sync + 'static,
@@ -167,7 +167,7 @@ fn linked<S: Default>(
     })
 }
 
-/// Those that are corners of a joint or a triangle, in the order of the table.
+/// The corners of joints or triangles, in the order of the table.
 pub fn corners(
     over: Over,
     rule: impl Fn([&Particle; 3], &Corner, &World) -> DVec4 + Send + Sync + 'static,
@@ -190,7 +190,7 @@ pub fn corners(
     })
 }
 
-/// The nearest by the device's own distances, the lower id first where two are the same.
+/// The nearest neighbours by the device's own distances, the lower id first where two distances are equal.
 fn nearest<'a, 'b: 'a>(
     me: &Particle,
     others: impl Iterator<Item = &'a Particle<'b>>,

@@ -38,14 +38,14 @@ impl From<u32> for Cell {
     }
 }
 
-/// What happens to a value.
+/// The way in which a value is stored.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Change {
     Set(Cell),
     Add(Cell),
 }
 
-/// What a law gives for one particle.
+/// The result of a law for one particle.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Outcome {
     acceleration: Option<DVec4>,
@@ -65,15 +65,15 @@ impl Outcome {
     pub fn add(&mut self, column: impl Into<Name>, value: impl Into<Cell>) {
         self.changes.push((column.into(), Change::Add(value.into())));
     }
-    /// The outcome of a law that gives an acceleration alone.
+    /// The outcome of a law that computes only an acceleration.
     #[must_use]
     pub fn of_acceleration(a: DVec4) -> Self {
         Self { acceleration: Some(a), changes: Vec::new() }
     }
 }
 
-/// Writes outcomes down, by index. Of a potential energy each particle gets its share. What lies in the order of a search's grid is
-/// written where a particle stands there.
+/// Stores outcomes, by index. Of a potential energy each particle gets its share. Fields in the order of a search's grid are written at the
+/// particle's slot.
 pub(super) fn write(
     host: &Host,
     share: f64,
@@ -95,7 +95,7 @@ pub(super) fn write(
         }
         for (name, change) in outcome.changes {
             let sorted = search.and_then(|search| search.field(&name));
-            // What is not in the cell list has no place there.
+            // A particle outside the cell list has no slot.
             let slot = if sorted.is_some() { slots.get(index).copied().flatten() } else { Some(index) };
             let (Some(index), name) = (slot, sorted.unwrap_or(name)) else { continue };
             let place = columns.iter().position(|(known, _)| *known == name);

@@ -7,26 +7,26 @@ use crate::error::Error;
 use crate::kernel::{Array, Host, Kernel, Name, Problem, Scalar, Source, World};
 use crate::neighbors::{Grid, SORTED_ID};
 
-/// How a law over `near` searches, beside its range.
+/// The search of a law over `near`, in addition to its range.
 #[derive(Clone)]
 pub struct Search {
     /// The grid, which holds all particles.
     pub grid: Grid,
-    /// What it loads of a neighbour.
+    /// The data of a neighbour that it loads.
     pub candidate: Candidate,
     /// Fields in the order of the cell list, by their names in WGSL. A law's reference reads and writes them by particle.
     pub sorted: Vec<&'static str>,
     /// Files beside the law's own.
     pub files: Vec<Source>,
-    /// Values for `override`s, of which its files may leave some out.
+    /// Values for `override`s, some of which its files may not have.
     pub constants: Vec<(&'static str, f64)>,
-    /// Whether fixed particles, where the grid keeps them behind all others, search too.
+    /// Whether fixed particles, which the grid keeps after all others, are targets too.
     pub fixed: bool,
 }
 
 impl Law {
-    /// A law of a method that searches a grid of its own; the rest as [`Law::computing`] has it. It may write fields of the method
-    /// that are no columns.
+    /// A law of a method that searches a grid of its own; otherwise like [`Law::computing`]. It may write fields of the method that are not
+    /// columns.
     pub fn searching<S: Default>(
         name: &str,
         search: Search,
@@ -42,7 +42,7 @@ impl Law {
         let reference = reference::searching(over, search.clone(), gather, finish);
         Self { into, search: Some(search), ..Self::plain(name, over, wgsl, params, reference) }
     }
-    /// Whether its WGSL, or a file beside it, holds these words in a row.
+    /// Whether its WGSL, or a file beside it, contains these words in a row.
     pub(super) fn says(&self, words: &[&str]) -> bool {
         let beside = self.search.iter().flat_map(|search| &search.files);
         std::iter::once(&self.wgsl).chain(beside).any(|file| file.says(words))
@@ -50,11 +50,11 @@ impl Law {
 }
 
 impl Search {
-    /// Particles that search: the first so many of those in the cell list.
+    /// The number of targets: the first particles of the cell list.
     pub(super) fn targets(&self, problem: &Problem) -> u32 {
         if self.fixed { problem.capacity } else { self.grid.ahead(problem) }
     }
-    /// Binds the fields of the cell list, and ends a search where particles do that are not fixed.
+    /// Binds the fields of the cell list, and excludes fixed particles from the targets.
     pub(super) fn bind(&self, kernel: &mut Kernel) {
         let cells = f64::from(self.grid.count());
         for pass in &mut kernel.passes {
@@ -63,22 +63,22 @@ impl Search {
             ends.for_each(|(_, end)| *end = cells);
         }
     }
-    /// The field of the cell list of that name, if it is one.
+    /// The field in the order of the cell list with that name, if there is one.
     pub(super) fn field(&self, name: &str) -> Option<Name> {
         self.sorted.iter().find(|sorted| **sorted == name).map(|sorted| self.grid.field(sorted).1)
     }
-    /// Of each particle the slot where it is in the cell list.
+    /// The slot of each particle in the cell list.
     pub(super) fn slots(&self, host: &Host) -> Result<Vec<Option<usize>>, Error> {
         let mut slots = vec![None; host.world().count as usize];
         for (slot, id) in self.grid.occupants(host)?.into_iter().enumerate() {
-            // Behind the last stands what is left of an earlier build.
+            // After the last slot there is data of an earlier build.
             if let Some(place) = slots.get_mut(id as usize).filter(|place| place.is_none()) {
                 *place = Some(slot);
             }
         }
         Ok(slots)
     }
-    /// The fields in the order of the cell list, by particle; zeros of what is not in it.
+    /// The fields in the order of the cell list, by particle; zeros for particles outside it.
     pub(super) fn by_particle(&self, host: &Host) -> Result<Vec<(&'static str, Array)>, Error> {
         let (slots, length) = (self.slots(host)?, host.reading::<u32>(&self.grid.field(SORTED_ID).1)?.len().max(1));
         let ordered = |name: &&'static str| {

@@ -5,38 +5,38 @@ use crate::error::Error;
 use crate::kernel::{Host, Problem, Reading};
 use crate::links::{Half, WORDS};
 
-/// Which tables of links a kernel binds, and its reference reads. A problem decides it: the host also has what pictures and
-/// solvers bind.
+/// The tables of links that a kernel binds, and its reference reads. They are determined by the problem, since the host also has the tables
+/// of pictures and solvers.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Tables {
-    /// None: a law is asked about a few particles, apart from any problem.
+    /// None: a law is evaluated for a few particles, outside any problem.
     None,
     /// One row for each link.
     Each,
-    /// Partners, kind by kind, where there are few kinds of springs and none of them breaks.
+    /// Partners, by kind, where there are few kinds of springs and none of them breaks.
     Alike,
 }
 
 impl Tables {
-    /// Those of a visit over links.
+    /// The tables of a visit over links.
     #[must_use]
     pub fn of(problem: &Problem) -> Self {
         if !problem.breaks && problem.network.alike() { Self::Alike } else { Self::Each }
     }
 }
 
-/// The tables of links as they stand on a host.
+/// The tables of links on a host.
 pub(crate) enum Tied<'a> {
     /// No links.
     None,
-    /// Every link with all that it is.
+    /// Every link with all its parameters.
     Each { start: Reading<'a, u32>, link: Reading<'a, u32> },
-    /// Partners, kind by kind.
+    /// Partners, by kind.
     Alike { start: Reading<'a, u32>, partner: Reading<'a, u32>, kinds: Vec<Half> },
 }
 
 impl<'a> Tied<'a> {
-    /// Those of a host.
+    /// The tables of a host.
     ///
     /// # Errors
     /// When the host does not have them.

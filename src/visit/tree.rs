@@ -10,32 +10,32 @@ use crate::kernel::{
 };
 use crate::tree::{GROUP, LEAF, Opening, Tree};
 
-/// Dispatches in which walks continue, beyond those that are counted: each stops a look too late.
+/// Extra dispatches in which walks continue: each stops one check too late.
 const MORE: u32 = 4;
-/// Of so many nodes a walk searches the targets of its group for one, at most: others are far from all of them, or near to one that
-/// has just been found. Where more are searched, the run ends with an alarm.
+/// A walk is assumed to search the targets of its group for one of this many nodes: the others are far from all of them, or near to one
+/// that has just been found. Where more are searched, the run ends with an alarm.
 const SEARCHED: u64 = 4;
-/// Dispatches that continue with walks, at most: a plan holds them all.
+/// The maximum number of dispatches that continue walks: a plan contains them all.
 const MOST: u32 = 1 << 15;
-/// Bytes of what is kept of walks that continue.
+/// Bytes of the saved state of walks that continue.
 const KEPT: u64 = 1 << 27;
-/// Targets of one dispatch, at most: an integer of groups.
+/// The maximum number of targets of one dispatch: an integer of groups.
 const TARGETS: u32 = 1 << 18;
-/// What one dispatch evaluates, at most: about a tenth of a second on a GPU that is not fast.
+/// The maximum number of evaluations of one dispatch: about a tenth of a second on a slow GPU.
 const MEETINGS: f64 = (1 << 30) as f64;
 
-/// The θ that is none: single precision holds l / θ of what is larger.
+/// The lowest θ: for smaller ones l / θ overflows single precision.
 const LEAST: f64 = 1e-30;
 
-/// How many particles there must be before the tree is faster than direct summation. Measured on lavapipe by
-/// `cargo bench --bench baselines -- tree`; for hardware it is an estimate, from the interactions of both and the rates of others.
+/// The number of particles from which the tree is faster than direct summation. Measured on lavapipe by
+/// `cargo bench --bench baselines -- tree`; for GPUs it is an estimate, from the interactions of both and published rates.
 #[must_use]
 pub fn crossing(machine: &Machine) -> u32 {
     if machine.software { 6144 } else { 49_152 }
 }
 
 impl Over {
-    /// What is visited for such a problem.
+    /// The visit for a problem.
     #[must_use]
     pub fn chosen(self, problem: &Problem) -> Self {
         match self {
@@ -89,8 +89,8 @@ fn variant(machine: &Machine) -> Vec<Source> {
     }
 }
 
-/// How many dispatches continue with a walk where loops may take so many iterations: enough for one that opens every node, searches
-/// targets for a quarter of them, and evaluates every body.
+/// The number of dispatches that continue a walk, given the number of iterations that loops may take: enough for one that opens every node,
+/// searches targets for a quarter of them, and evaluates every body.
 fn rounds(tree: &Tree, machine: &Machine) -> u32 {
     if !machine.software {
         return 0;
@@ -105,7 +105,7 @@ fn rounds(tree: &Tree, machine: &Machine) -> u32 {
         let nodes = 2 * leaves + 32;
         (2 * (nodes + u64::from(LEAF) * leaves) + group, group * nodes)
     };
-    // Each dispatch starts over, and stops a look too late.
+    // Each dispatch starts over, and stops one check too late.
     let turns = u64::from(machine.turns).saturating_sub(2 * group).max(1);
     if walk + search <= turns {
         return 0;
@@ -165,7 +165,7 @@ pub fn kernel(law: Law, tree: &Tree, problem: &Problem) -> Result<Kernel, Error>
             let pass = Pass { constants: constants.clone(), uniforms, threads, work, ..Pass::new(shader.clone(), 0) };
             Ok(pass.on(&tree.fields()))
         };
-        // Whether walks of a dispatch had to stop.
+        // Checks whether walks of a dispatch had to stop.
         let look = |of: &Pass, rest: &Arc<Shader>| Pass {
             constants: [&constants[..], &[("ROW", f64::from(machine.workgroups))]].concat(),
             uniforms: of.uniforms.iter().filter(|(name, _)| *name == "tree").cloned().collect(),
@@ -174,7 +174,7 @@ pub fn kernel(law: Law, tree: &Tree, problem: &Problem) -> Result<Kernel, Error>
         };
         passes.push(walk(0)?);
         if let Some(rest) = &rest {
-            // Few walks continue, if any: what all of them would take is not what they take.
+            // Few walks continue, if any: the work of all of them would be an overestimate.
             let again = walk(1)?;
             let again = Pass { indirect: Some(Indirect { field: GO.into(), word: 0 }), work: again.work / 4, ..again };
             let (seen, last) = (look(&walk(0)?, rest), look(&again, rest));
@@ -192,12 +192,12 @@ pub fn kernel(law: Law, tree: &Tree, problem: &Problem) -> Result<Kernel, Error>
     Ok(Kernel { name: law.name, passes, reference: law.distant.walk, sizes, scratch, tables: Vec::new() })
 }
 
-/// What targets of a dispatch have evaluated, and where their walks stand.
+/// The partial sums of the targets of a dispatch, and the positions of their walks.
 const KEPT_WALKS: &str = "tree_kept";
-/// How many workgroups continue with a walk.
+/// The workgroup counts of dispatches that continue walks.
 const GO: &str = "tree go";
 
-/// About how many pair evaluations a target's walk is worth: a guess of time alone.
+/// The approximate number of pair evaluations that equal a target's walk: an estimate of time only.
 fn pair_evaluations(tree: &Tree, problem: &Problem) -> f64 {
     let levels = f64::from(tree.height()) + 1.0;
     let theta = match tree.opening {
@@ -208,7 +208,7 @@ fn pair_evaluations(tree: &Tree, problem: &Problem) -> f64 {
     (700.0 + 180.0 * levels / theta.powi(2)).min(f64::from(problem.particles))
 }
 
-/// The block `tree` of a shader, for some targets, by their places along the curve.
+/// The block `tree` of a shader, for some targets, by their indices along the curve.
 fn uniform(tree: &Tree, binding: &Binding, targets: Range<u32>, again: u32) -> Result<Vec<u8>, Error> {
     let values = [
         ("first", Scalar::Uint(targets.start)),

@@ -19,7 +19,7 @@ pub struct Group {
     pub moments: DMat3,
 }
 
-/// Where a group of targets is, as the device has it.
+/// The bounds of a group of targets, as the device has them.
 struct Place {
     targets: Vec<Vec3>,
     middle: Vec3,
@@ -35,18 +35,18 @@ impl Place {
         let high = targets.iter().copied().fold(Vec3::NEG_INFINITY, Vec3::max);
         Self { targets, middle: 0.5 * (low + high), half_side: 0.5 * (high - low), demand: demand as f32 }
     }
-    /// The minimum distance from the box of the targets to a place, squared, by the device's own arithmetic.
+    /// The minimum distance from the box of the targets to a point, squared, by the device's own arithmetic.
     fn apart(&self, x: DVec3, bounds: &Bounds) -> f32 {
         let r = bounds.shortest_single((x.as_vec3() - self.middle).as_dvec3());
         squared_size((r.abs() - self.half_side).max(Vec3::ZERO))
     }
-    /// The minimum distance from any of the targets to a place, squared.
+    /// The minimum distance from any of the targets to a point, squared.
     fn nearest(&self, x: DVec3, bounds: &Bounds) -> f32 {
         let away = |target: &Vec3| squared_size(bounds.shortest_single((x.as_vec3() - *target).as_dvec3()));
         self.targets.iter().map(away).fold(f32::INFINITY, f32::min)
     }
-    /// Whether a node is opened: where it reaches the box of the targets and, if that is four times as wide as the node
-    /// reaches, one of the targets.
+    /// Whether a node is opened: if it reaches the box of the targets and, where that is four times as wide as the node's reach, one of the
+    /// targets.
     fn opens(&self, tree: &Tree, nodes: &Nodes<'_>, node: u32, bounds: &Bounds) -> bool {
         let reaches = |d| self.reaches(tree, nodes, node, d);
         let longest = self.half_side.max_element();
@@ -54,7 +54,7 @@ impl Place {
         let center = nodes.center(node);
         reaches(self.apart(center, bounds)) && (reaches(wide) || reaches(self.nearest(center, bounds)))
     }
-    /// Whether a node reaches so far, squared.
+    /// Whether the reach of a node, squared, exceeds `d`.
     #[expect(clippy::cast_possible_truncation, reason = "as the device holds it")]
     fn reaches(&self, tree: &Tree, nodes: &Nodes<'_>, node: u32, d: f32) -> bool {
         let reach = nodes.reach(node);
@@ -66,7 +66,7 @@ impl Place {
     }
 }
 
-/// In the order in which the device adds.
+/// Adds in the order of the device.
 fn squared_size(d: Vec3) -> f32 {
     d.x * d.x + d.y * d.y + d.z * d.z
 }
@@ -125,7 +125,7 @@ pub fn reference(
     })
 }
 
-/// What a group evaluates.
+/// The interactions of a group.
 #[derive(Default)]
 struct Met {
     far: Vec<u32>,

@@ -13,7 +13,7 @@ const WORKGROUP: u32 = 64u;
 fn watch_column(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u, @builtin(local_invocation_index) lane: u32) {
     let i = folded(group, groups) * WORKGROUP + lane;
     if i < ELEMENTS && is_broken(value[i]) {
-        // Later looks find fewer steps already there, and leave the id alone.
+        // Later checks find an earlier step already stored, and do not change the id.
         if atomicMin(&alarm[0], world.step) >= world.step { atomicMin(&alarm[1], i / SLOTS); }
     }
 }

@@ -8,7 +8,7 @@
 @group(3) @binding(7) var<storage, read_write> dfsph_state: array<State>;
 @group(3) @binding(9) var<storage, read> warm_start: array<Stiffness>;
 
-// The cells of the fluid: behind the last of them stand walls, and empty slots.
+// The cells of the fluid: after the last of them come walls, and empty slots.
 override CELLS: u32 = 1u;
 override FEWEST: f32 = 0.0;
 override WARM: f32 = 0.0;

@@ -6,7 +6,7 @@ struct Extent { unused_word: u32, elements: u32, chunk: u32 }
 @group(3) @binding(11) var<uniform> extent: Extent;
 
 override SOLVE: u32 = 0u;
-// The cells of the fluid, behind which it ends.
+// The number of cells of the fluid, after which it ends.
 override CELLS: u32 = 1u;
 override TOLERANCE: f32 = 0.0;
 override LEAST: f32 = 0.0;

@@ -2,7 +2,7 @@
 @group(3) @binding(16) var<storage, read_write> pairs: array<vec4f>;
 
 override STRIDE: u32 = 1u;
-// The cells of the fluid: behind the last of them stand walls, and empty slots.
+// The cells of the fluid: after the last of them come walls, and empty slots.
 override CELLS: u32 = 1u;
 const WORKGROUP: u32 = 64u;
 

@@ -7,14 +7,14 @@ use crate::integrators::verbs::adaptive;
 use crate::kernel::Plan;
 
 impl Step<'_> {
-    /// How long the step is, by the dt criteria at the end of the one before; nothing where dt is fixed.
+    /// Sets the time step from the dt criteria at the end of the previous step; does nothing where dt is fixed.
     pub fn adaptive_step(&mut self) {
         let Some(how) = self.problem.adaptive_step else { return };
         let viscous = self.limits().map(|(_, viscous)| viscous);
         self.add(viscous.and_then(|viscous| adaptive::next_dt(&how, viscous, &self.problem)));
         self.add(adaptive::limiting_particle(&how, &self.problem));
     }
-    /// What forces say of the length of the step to come.
+    /// Adds the kernels of the dt criteria for the next step.
     pub(super) fn dt_criteria(&mut self) {
         if self.problem.adaptive_step.is_none() {
             return;
@@ -30,7 +30,7 @@ impl Step<'_> {
         }
         self.add(adaptive::measure(&self.problem));
     }
-    /// The kernels that find limits, and how many steps viscosity wants in a longest one.
+    /// The kernels of the criteria, and the number of steps per longest step that viscosity requires.
     fn limits(&self) -> Result<(Plan, f64), Error> {
         let mut plan = Plan::default();
         let mut offered = Vec::new();

@@ -1,9 +1,9 @@
 //! The verbs applied to columns that components declare with a rate.
 //!
-//! A column is advanced with velocities where evaluations compute its rate, and with positions where its rate is a state. What is
-//! carried along with positions by a rate that follows from velocities, as a density is, has its rate computed in the middle of
-//! each drift. A Runge–Kutta step gives all of them its stages. Implicit methods solve for positions and velocities alone: the
-//! columns continue explicitly, by rates computed where laws without a Jacobian are.
+//! A column is advanced with velocities where evaluations compute its rate, and with positions where its rate is a state. A carried column,
+//! whose rate follows from velocities, such as a density, has its rate computed in the middle of each drift. A Runge–Kutta step advances
+//! all of them in its stages. Implicit methods solve for positions and velocities only: the columns are advanced explicitly, by rates
+//! computed where laws without a Jacobian are evaluated.
 
 use super::Step;
 use crate::component;
@@ -15,7 +15,7 @@ use crate::integrators::verbs::solve::{START_POSITION, update};
 use crate::kernel::{Advance, Column, Columns, Kernel, Name, POSITION, Pair, Plan, Problem, Role, Way};
 use crate::rotation::{self, Body};
 
-/// The body that a pair turns, or has a torque on.
+/// The body whose orientation or angular velocity a pair advances.
 fn body(pair: &Pair, columns: &Columns) -> Option<Body> {
     let (orientation, angular_velocity, torque, inertia) = match &pair.way {
         Way::Rotation { inertia } => {
@@ -42,7 +42,7 @@ fn slope(pair: &Pair, columns: &Columns) -> Advanced {
     }
 }
 
-/// The rates beside accelerations that evaluations compute and kicks use, one of each buffer.
+/// The rates, other than accelerations, that evaluations compute and kicks use, one of each buffer.
 fn rates(columns: &Columns) -> Vec<Column> {
     let mut known = vec![Name::from("acceleration")];
     let used = |pair: &Pair| matches!(pair.way, Way::Kick | Way::Torque { .. });
@@ -55,7 +55,7 @@ fn rates(columns: &Columns) -> Vec<Column> {
     rates.filter(new).collect()
 }
 
-/// The buffers of the rates beside accelerations that a step leaves for the next one.
+/// The buffers of the rates, other than accelerations, that a step saves for the next one.
 #[must_use]
 pub fn kept_rates(columns: &Columns) -> Vec<Name> {
     rates(columns).into_iter().map(|rate| rate.place.buffer).collect()
@@ -71,7 +71,7 @@ impl Step<'_> {
             }
         }
     }
-    /// Columns with rates that evaluations compute continue, as velocities do.
+    /// Advances columns whose rates are computed by evaluations, like velocities.
     pub(super) fn kick_pairs(&mut self, factor: f64) {
         self.each_pair(|pair, columns, problem| match (&pair.way, body(pair, columns)) {
             (Way::Kick, _) => Some(advance::advance("kick", &Advanced::of(pair, columns), factor, problem)),
@@ -79,7 +79,7 @@ impl Step<'_> {
             _ => None,
         });
     }
-    /// Columns with rates that are states continue, as positions do.
+    /// Advances columns whose rates are states, like positions.
     pub(super) fn drift_pairs(&mut self, factor: f64) {
         self.each_pair(|pair, columns, problem| match (&pair.way, body(pair, columns)) {
             (Way::Drift, _) => Some(advance::advance("drift", &Advanced::of(pair, columns), factor, problem)),
@@ -87,18 +87,18 @@ impl Step<'_> {
             _ => None,
         });
     }
-    /// Whether anything is carried along with positions.
+    /// Whether there are carried columns.
     pub(super) fn carries(&self) -> bool {
         self.problem.columns.pairs().iter().any(|pair| pair.way == Way::Carried)
     }
-    /// Which components compute rates of what is carried: those that declare such columns, and those with a law for one.
+    /// Whether each component computes rates of carried columns: it declares such a column, or has a law for one.
     fn carrying(&self) -> Vec<bool> {
         let declares = |force: &dyn Component| force.columns().iter().any(|column| column.advance == Advance::Carried);
         let computes = |force: &dyn Component| force.laws().iter().any(|law| component::carries(law, &self.problem));
         self.forces.iter().map(|force| declares(force.as_ref()) || computes(force.as_ref())).collect()
     }
-    /// A drift with what is carried along. From its middle particles do not continue, but from its start the whole way: where they come
-    /// to is rounded once.
+    /// A drift with carried columns. After the rates are computed in its middle, positions are advanced the whole way from its start, not
+    /// from its middle, so that they are rounded once.
     pub(super) fn drift_carrying(&mut self, factor: f64) {
         let (count, kicked) = (self.problem.capacity, self.kicked.take());
         self.add(copy(count, "start", POSITION, START_POSITION));
@@ -107,7 +107,7 @@ impl Step<'_> {
         self.carry(factor, self.drifted + 0.5 * factor);
         self.add(update::reach(count, factor));
     }
-    /// What is carried along continues by `factor` of the step, in the middle of which positions are, at `middle` of it.
+    /// Advances carried columns by `factor` of the step; positions are in the middle of that part, at `middle` of the step.
     pub(super) fn carry(&mut self, factor: f64, middle: f64) {
         self.at(middle);
         let carrying = self.carrying();
@@ -118,7 +118,7 @@ impl Step<'_> {
             carried.then(|| advance::advance("carry", &Advanced::of(pair, columns), factor, problem))
         });
     }
-    /// The rates of what is carried, where particles are.
+    /// Computes the rates of carried columns at the current positions.
     pub(super) fn carried_rates(&mut self) {
         self.clear_sums(true);
         let mut plan = Plan::default();
@@ -130,7 +130,7 @@ impl Step<'_> {
         }
         plan.steps().for_each(|kernel| self.add(Ok(kernel.clone())));
     }
-    /// Sums begin at zero, before the first law: those that are rates of what is carried, or all others.
+    /// Sets sums to zero before the first law: those that are rates of carried columns, or all others.
     pub(super) fn clear_sums(&mut self, carried: bool) {
         let columns = self.problem.columns.clone();
         let rates: Vec<_> =
@@ -143,18 +143,18 @@ impl Step<'_> {
             }
         }
     }
-    /// Keeps where the columns start.
+    /// Saves the columns at the start of the step.
     pub(super) fn save_pairs(&mut self) {
         self.each_pair(|pair, columns, problem| Some(runge_kutta::save(&Part::of(&pair.column, columns), problem)));
     }
-    /// The slopes of what has not its rate for one.
+    /// Computes the slopes of orientations, which differ from their rates.
     pub(super) fn slopes(&mut self) {
         self.each_pair(|pair, columns, problem| {
             let turns = matches!(pair.way, Way::Rotation { .. });
             body(pair, columns).filter(|_| turns).map(|body| rotation::slopes(&body, problem))
         });
     }
-    /// A stage of the columns whose rates are states, while these are those of the stage before, or of all others.
+    /// A stage of the columns whose rates are states, while these have the values of the previous stage, or of all others.
     pub(super) fn stage_pairs(&mut self, drifts: bool, weight: f64, factor: f64) {
         self.each_pair(|pair, columns, problem| {
             let its = (pair.way == Way::Drift) == drifts;
@@ -174,8 +174,8 @@ impl Step<'_> {
             });
         }
     }
-    /// After a solve for a part of the step: what is carried goes along the straight line from where that began, of which the
-    /// solve leaves positions at the end; the others are kicked and drift, as by symplectic Euler.
+    /// After a solve for a part of the step: carried columns are advanced along the straight line from the start of that part to its end,
+    /// where the solve leaves positions; the others are kicked and drift, as by symplectic Euler.
     pub(super) fn solved_pairs(&mut self, factor: f64, until: f64) {
         if self.carries() {
             self.add(update::reach(self.problem.capacity, 0.5 * factor));
@@ -185,7 +185,7 @@ impl Step<'_> {
         self.kick_pairs(factor);
         self.drift_pairs(factor);
     }
-    /// From the middle of the step to its end, with the rates that the middle has; velocities are those of the middle still.
+    /// From the middle of the step to its end, with the rates of the middle; velocities are still those of the middle.
     pub(super) fn extrapolated_pairs(&mut self) {
         if self.carries() {
             self.add(update::reach(self.problem.capacity, 0.75));
@@ -194,7 +194,7 @@ impl Step<'_> {
         self.drift_pairs(0.5);
         self.kick_pairs(0.5);
     }
-    /// Rates that the next step is going to use, around a measurement.
+    /// Saves or restores rates that the next step uses, around a measurement.
     pub(super) fn keep_rates(&mut self, restore: bool) {
         let columns = self.problem.columns.clone();
         for rate in rates(&columns) {
@@ -202,7 +202,7 @@ impl Step<'_> {
             self.add(kernel(&Part::of(&rate, &columns), &self.problem));
         }
     }
-    /// Columns that are not finite raise the alarm.
+    /// Raises the alarm for columns that are not finite.
     pub(super) fn watch_pairs(&mut self) {
         self.each_pair(|pair, columns, problem| around::watch(&Part::of(&pair.column, columns), problem).transpose());
     }

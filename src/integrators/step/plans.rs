@@ -1,4 +1,4 @@
-//! The plans that come of what an integrator has written.
+//! The plans made from the kernels that an integrator has written.
 
 use super::Step;
 use crate::error::Error;
@@ -8,16 +8,16 @@ use crate::kernel::{Kernel, Plan};
 use crate::tree::Opening;
 
 impl<'a> Step<'a> {
-    /// The plan of what is done once: what the integrator wrote, and a look for numbers that are broken from the start,
-    /// while they are those of the particles at fault. A step spreads them: every particle attracts all others.
+    /// The start plan: the integrator's kernels, and a check for numbers that are not finite at the start, while only the particles at
+    /// fault have them. A step spreads them: every particle attracts all others.
     ///
     /// # Errors
-    /// The first thing that went wrong while it was written.
+    /// The first error of writing it.
     pub fn begun(mut self) -> Result<Plan, Error> {
         if !self.evaluated {
             self.evaluate();
         }
-        // The relative opening criterion needs accelerations of an evaluation before.
+        // The relative opening criterion needs the accelerations of a previous evaluation.
         if self.looks_back() {
             self.evaluate();
         }
@@ -26,15 +26,15 @@ impl<'a> Step<'a> {
         self.watch_pairs();
         self.finished()
     }
-    /// Whether an evaluation depends on the accelerations of the one before.
+    /// Whether an evaluation depends on the accelerations of the previous one.
     fn looks_back(&self) -> bool {
         let mut laws = self.forces.iter().flat_map(|force| force.laws());
         laws.any(|law| law.tree(&self.problem).is_some_and(|tree| matches!(tree.opening, Opening::Relative { .. })))
     }
-    /// The plan of one step: what the integrator wrote, the clock's tick, births and deaths, and a look for broken numbers.
+    /// The plan of one step: the integrator's kernels, the step counter, spawns and drains, and a check for numbers that are not finite.
     ///
     /// # Errors
-    /// The first thing that went wrong while the step was written.
+    /// The first error of writing it.
     pub fn done(mut self) -> Result<Plan, Error> {
         self.each(Stage::EndOfStep);
         self.add(if self.problem.adaptive_step.is_some() { adaptive::tick(&self.problem) } else { tick::kernel() });
@@ -45,14 +45,14 @@ impl<'a> Step<'a> {
         self.watch_pairs();
         self.finished()
     }
-    /// The plan without tick and watch.
+    /// The plan without step counter and check.
     ///
     /// # Errors
-    /// The first thing that went wrong while the step was written.
+    /// The first error of writing it.
     pub fn finished(mut self) -> Result<Plan, Error> {
         self.flush();
-        // Where nothing asks for the time within a step, nothing need set it.
-        // By what they run, not by what they are called: a force may be called anything.
+        // Kernels that set the time are left out where no kernel reads it.
+        // They are found by their entry points, since a force may have any name.
         let runs = |kernel: &Kernel, entry| kernel.passes.iter().all(|p| p.shader.reflection().entry == entry);
         let asked = |kernel: &Kernel| {
             ![tick::NAME, life::SPAWN].into_iter().any(|entry| runs(kernel, entry))
@@ -63,7 +63,7 @@ impl<'a> Step<'a> {
         }
         self.error.map_or(Ok(self.plan), Err)
     }
-    /// What time it is, on a clock that has just been set.
+    /// Sets the time, after the clock was set.
     ///
     /// # Errors
     /// When a shader does not compile.
@@ -71,11 +71,11 @@ impl<'a> Step<'a> {
         let kernel = if problem.adaptive_step.is_some() { adaptive::at(0.0, problem) } else { at::kernel(0.0) };
         Ok(Plan::of(vec![kernel?]))
     }
-    /// The two plans around a measurement: the first keeps the forces that the next step is going to use and evaluates
-    /// them at the present state; the second puts the kept ones back.
+    /// The two plans around a measurement: the first saves the forces that the next step uses and evaluates them at the present state; the
+    /// second restores the saved ones.
     ///
     /// # Errors
-    /// The first thing that went wrong while they were written.
+    /// The first error of writing them.
     pub fn measurement(forces: &'a [Box<dyn Component>], problem: Problem) -> Result<(Plan, Plan), Error> {
         let mut before = Self::keeps(forces, problem.clone());
         before.evaluate();
@@ -84,10 +84,10 @@ impl<'a> Step<'a> {
         after.keep_rates(true);
         Ok((before.finished()?, after.finished()?))
     }
-    /// The plan that keeps what the next step is going to use, and evaluates nothing.
+    /// The plan that saves the data that the next step uses, without an evaluation.
     ///
     /// # Errors
-    /// The first thing that went wrong while it was written.
+    /// The first error of writing it.
     pub fn keeping(forces: &'a [Box<dyn Component>], problem: Problem) -> Result<Plan, Error> {
         Self::keeps(forces, problem).finished()
     }

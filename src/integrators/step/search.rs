@@ -8,7 +8,7 @@ use crate::tree::Tree;
 use crate::visit;
 
 impl Step<'_> {
-    /// Keeps the list of neighbours up to date, where laws of chosen forces are over it.
+    /// Updates the neighbour list, where laws of chosen forces use it.
     fn list(&mut self, chosen: &impl Fn(usize) -> bool) -> Result<(), Error> {
         let places = self.forces.iter().enumerate();
         let laws: Vec<(usize, Law)> =

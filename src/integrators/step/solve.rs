@@ -12,39 +12,39 @@ use crate::visit::Jacobian;
 /// A part of a step by backward Euler: v = v₀ + h a(x₀ + h v, v), x = x₀ + h v.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Implicit {
-    /// The length h of the part, of the step.
+    /// The length h of the part, relative to the step.
     pub part: f64,
-    /// The time of its end, of the step.
+    /// The time of its end, relative to the step.
     pub until: f64,
-    /// Where laws without a Jacobian are evaluated.
+    /// The positions at which laws without a Jacobian are evaluated.
     pub explicit: Explicit,
-    /// How the equations are solved.
+    /// The method by which the equations are solved.
     pub form: Form,
 }
 
-/// Where laws without a Jacobian are evaluated, once in a solve.
+/// The positions at which laws without a Jacobian are evaluated, once per solve.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Explicit {
-    /// Where the part begins.
+    /// At the start of the part.
     Here,
-    /// At its end, x₀ + h v₀, as far as that is known.
+    /// At an estimate of its end, x₀ + h v₀.
     Ahead,
 }
 
-/// How the equations of an implicit step are solved.
+/// The method by which the equations of an implicit step are solved.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Form {
-    /// One linear solve, of forces expanded about where the part begins (Baraff & Witkin 1998).
+    /// One linear solve, of forces linearized about the start of the part (Baraff & Witkin 1998).
     Linear,
-    /// Newton's method, until the residual is as small as the solver is asked for.
+    /// Newton's method, until the residual meets the tolerance of the solver.
     Newton,
 }
 
 /// The tolerance of a linear solve of Newton's method, relative to that of the method.
 const INNER: f64 = 0.25;
 
-/// Which of some forces enter the matrix of an implicit solve: those of which every law offers its Jacobian. Of laws of
-/// links that is one: the first. What writes other columns than the acceleration does not: it would add to them in each solve.
+/// The forces that enter the matrix of an implicit solve: those whose laws all have a Jacobian. Of laws of links only the first enters. A
+/// law that writes columns other than the acceleration does not: it would add to them in each solve.
 #[must_use]
 pub fn implicit(forces: &[Box<dyn Component>]) -> Vec<bool> {
     let mut tied = false;
@@ -79,7 +79,7 @@ impl Step<'_> {
             self.at(by.until);
             self.add(update::reach(count, factor));
         }
-        // Trees are built by the last accelerations, before that is cleared.
+        // Trees use the last accelerations, before they are cleared.
         let laws = self.laws(|place| !which[place]);
         self.clear();
         self.add_laws(laws);
@@ -99,7 +99,7 @@ impl Step<'_> {
         let tied = links.is_some();
         let problem = self.problem.clone();
         let system = System { problem: &problem, factor, links };
-        // In exact numbers it ends after as many as there are unknowns; twice that is for rounding.
+        // In exact arithmetic it ends after as many iterations as there are unknowns; twice that allows for rounding.
         let unknowns = count.saturating_mul(3);
         let limit = if tied { solver.iterations.min(unknowns.saturating_mul(2).saturating_add(8)) } else { 0 };
         let linear = |step: &mut Self, start: bool| {
@@ -117,7 +117,7 @@ impl Step<'_> {
                 step.again(explicit);
                 linear(step, false);
             });
-            // One look more, which decides.
+            // One more evaluation, which decides.
             self.again(explicit);
             self.gather(|place| which[place]);
             self.rows(&system, &[], false);
@@ -128,8 +128,7 @@ impl Step<'_> {
         }
         self.solved_pairs(factor, by.until);
     }
-    /// From the middle of the step to its end, along the straight line from where the last solve began: x ← x₀ + v dt,
-    /// v ← 2 v − v₀.
+    /// From the middle of the step to its end, along the straight line from the start of the last solve: x ← x₀ + v dt, v ← 2 v − v₀.
     pub fn extrapolate(&mut self) {
         self.extrapolated_pairs();
         self.add(update::reach(self.problem.capacity, 1.0));
@@ -143,7 +142,7 @@ impl Step<'_> {
         self.each(Stage::AfterAdvance { factor });
     }
 
-    /// The accelerations before implicit laws add theirs.
+    /// Restores the accelerations of explicit laws, to which implicit laws add theirs.
     fn again(&mut self, explicit: bool) {
         if explicit {
             self.add(copy(self.problem.capacity, "restore explicit", EXPLICIT, ACCELERATION));
@@ -172,7 +171,7 @@ impl Step<'_> {
             half(step, true);
         });
     }
-    /// A loop until a member of the state of the solve is set.
+    /// A loop that runs until a member of the solve's state is set.
     fn repeat(&mut self, most: u32, until: &'static str, write: impl FnOnce(&mut Self)) {
         if most == 0 {
             return;

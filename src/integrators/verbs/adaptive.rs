@@ -33,7 +33,7 @@ fn sizes() -> Vec<(crate::kernel::Name, u64)> {
     vec![(STEP_CLOCK.name.into(), STEP_CLOCK_WORDS as u64), (STOP.name.into(), 2), (LARGEST_CRITERION.name.into(), 1)]
 }
 
-/// How long the step is; `viscous` is how many of it viscosity wants in a longest one.
+/// Computes the time step; `viscous` is the number of steps per longest step that viscosity requires.
 #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "as the device does it")]
 pub fn next_dt(adaptive_step: &AdaptiveStep, viscous: f64, problem: &Problem) -> Result<Kernel, Error> {
     let shader = Shader::join(&[crate::shader!("world.wgsl"), crate::shader!("integrators/adaptive_dt.wgsl")])?;

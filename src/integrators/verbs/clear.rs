@@ -1,4 +1,4 @@
-//! Before the first law: no acceleration, no potential.
+//! Sets accelerations and potentials to zero before the first law.
 
 use std::sync::Arc;
 
@@ -17,7 +17,7 @@ pub fn kernel(count: u32) -> Result<Kernel, Error> {
     Ok(Kernel::new("clear", shader, Vec::new(), count, Arc::new(reference)))
 }
 
-/// Clears them with the first kernel that adds to them, if it can: it sets accelerations instead.
+/// Clears them in the first kernel that adds to them, if possible: it sets accelerations instead.
 pub fn with(law: &mut Kernel) -> bool {
     const FIRST: &str = "FIRST";
     let can = law.passes.len() == 1 && law.passes[0].shader.reflection().overrides.contains_key(FIRST);

@@ -1,4 +1,4 @@
-//! Fixed particles: `lead` gives them the velocity that brings them where they shall be, `hold` takes what forces do to them.
+//! Fixed and kinematic particles: `lead` sets the velocities that bring them to their positions, `hold` sets their accelerations to zero.
 
 use std::sync::Arc;
 
@@ -10,7 +10,7 @@ use crate::kernel::{
 };
 use crate::motion::{self, Held, Hold};
 
-/// Before a step: v ← (where it shall be at the end − x) / dt, one kernel for each kind of hold that there is.
+/// Before a step: v ← (position at its end − x) / dt, one kernel for each kind of hold.
 pub fn lead(problem: &Problem) -> Result<Vec<Kernel>, Error> {
     let held = &problem.held;
     let fixed = held.partition_point(|one| one.by < Hold::Target);
@@ -118,7 +118,7 @@ pub fn hold(problem: &Problem) -> Result<Kernel, Error> {
     })
 }
 
-/// Held ones have different ids, so that there are fewer than 2³².
+/// Fixed particles have distinct ids, so that there are fewer than 2³².
 fn number(n: usize) -> u32 {
     u32::try_from(n).unwrap_or(u32::MAX)
 }

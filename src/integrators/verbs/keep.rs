@@ -22,7 +22,7 @@ pub fn copy(count: u32, name: &str, from: Field<Vec4>, to: Field<Vec4>) -> Resul
     Ok(kernel)
 }
 
-/// Keeps the forces that the next step is going to use.
+/// Saves the forces that the next step uses.
 pub fn keep(count: u32) -> Result<Kernel, Error> {
     let shader = Shader::join(&[crate::shader!("world.wgsl"), crate::shader!("integrators/keep.wgsl")])?;
     let reference = |host: &Host| {
@@ -32,7 +32,7 @@ pub fn keep(count: u32) -> Result<Kernel, Error> {
     Ok(Kernel::new("keep", shader, Vec::new(), count, Arc::new(reference)))
 }
 
-/// Puts them back.
+/// Restores them.
 pub fn restore(count: u32) -> Result<Kernel, Error> {
     let shader = Shader::join(&[crate::shader!("world.wgsl"), crate::shader!("integrators/restore.wgsl")])?;
     let reference = |host: &Host| {

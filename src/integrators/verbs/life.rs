@@ -12,12 +12,12 @@ use crate::kernel::{
 use crate::life::{self, Drain, Life};
 use crate::solids::Solid;
 
-/// What the shader of a birth is called.
+/// The name of a spawn's shader.
 pub const SPAWN: &str = "spawn";
-/// Particles that are due within such a part of a step are due: rounding of times decides nothing.
+/// Particles count as due up to this part of a step before their time, so that rounding of times does not matter.
 const SOON: f64 = 1.0 / 64.0;
 
-/// At the end of a step, and before the first one: due particles are spawned, and those in a drain removed.
+/// At the end of a step, and before the first one: due particles are spawned, and particles in drains are removed.
 pub fn kernels(problem: &Problem) -> Result<Vec<Kernel>, Error> {
     let births = (!problem.births.is_empty()).then(|| spawn(problem));
     let drains = problem.drains.iter().zip(1..).map(|(drain, number)| self::drain(problem, *drain, number));
@@ -116,7 +116,7 @@ fn drain(problem: &Problem, drain: Drain, number: u32) -> Result<Kernel, Error> 
     })
 }
 
-/// Whether a drain removes a particle there.
+/// Whether a drain removes a particle at a position.
 fn takes(drain: &Drain, x: glam::DVec3, world: &World) -> bool {
     let r = x - drain.position;
     let r = if matches!(drain.solid, Solid::Plane(_)) { r } else { world.bounds.shortest(r) };
@@ -124,7 +124,7 @@ fn takes(drain: &Drain, x: glam::DVec3, world: &World) -> bool {
     if drain.outside { distance > 0.0 } else { distance < 0.0 }
 }
 
-/// After each evaluation: a ← 0 for particles that are not active, and for those just spawned.
+/// After each evaluation: a ← 0 for inactive particles and for particles that move at constant velocity after they are spawned.
 pub fn still(problem: &Problem) -> Result<Vec<Kernel>, Error> {
     let guided = problem.births.iter().any(|birth| birth.guided > 0.0).then(|| guide(problem));
     std::iter::once(rest(problem)).chain(guided).collect()

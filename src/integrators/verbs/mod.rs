@@ -1,5 +1,5 @@
-//! The verbs in which integrators are written, one file for each shader; a Runge–Kutta step's three go together, and
-//! those of an implicit solve and those of declared columns have a folder each.
+//! The verbs in which integrators are written, one file for each shader; the three of a Runge–Kutta step share a file, and those of an
+//! implicit solve and those of declared columns have a folder each.
 
 pub mod adaptive;
 pub mod at;

@@ -20,7 +20,7 @@ fn vector(v: DVec4) -> DVec4 {
     v.with_w(0.0)
 }
 
-/// Keeps the start of the step.
+/// Saves the start of the step.
 pub fn save(count: u32) -> Result<Kernel, Error> {
     let reference = |host: &Host| {
         host.write(START_POSITION)?.copy_from_slice(&host.read(POSITION)?);
@@ -38,7 +38,7 @@ pub fn save(count: u32) -> Result<Kernel, Error> {
     ))
 }
 
-/// A stage: `weight` times its slopes go into the sum, and the next slopes are wanted `factor` of the step from the start.
+/// A stage: adds `weight` times the slopes to the sum, and advances to `factor` of the step from its start for the next slopes.
 pub fn stage(count: u32, weight: f64, factor: f64) -> Result<Kernel, Error> {
     let reference = move |host: &Host| {
         let dt = factor * host.world().dt;

@@ -5,13 +5,13 @@ use std::sync::Arc;
 use crate::error::Error;
 use crate::kernel::{ALARM, ALARM_WORDS, Kernel, Shader, World};
 
-/// Steps between two looks at how speeds have grown.
+/// The number of steps between two checks of the growth of speeds.
 const WINDOW: u32 = 16;
 
 /// Its name in a plan, and in its shader.
 pub const NAME: &str = "tick";
 
-/// Writes down how speeds have grown, if it is time to.
+/// Records the growth of speeds, if the check is due.
 pub fn grown(alarm: &mut [u32], step: u32) {
     if let ([_, _, _, _, _, now, before, doubled, ..], true) = (alarm, step.is_multiple_of(WINDOW)) {
         let faster = f32::from_bits(*now) > 2.0 * f32::from_bits(*before);

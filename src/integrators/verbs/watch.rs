@@ -1,12 +1,12 @@
-//! Raises the alarm when a number is not finite, and when speeds run away.
+//! Raises the alarm when a number is not finite, and for runaway speeds.
 
 use std::sync::Arc;
 
 use crate::error::Error;
 use crate::kernel::{ACCELERATION, ALARM, ALARM_WORDS, Kernel, POSITION, Shader, VELOCITY};
 
-/// So often in a row must the largest speed double before another time counts as running away: a fall from rest does it
-/// once, whatever the step, and then grows by ever less.
+/// The number of consecutive doublings of the maximum speed after which another one is a runaway: in a fall from rest the speed doubles
+/// once, whatever the step, and then grows ever more slowly.
 const OFTEN: u32 = 7;
 
 /// The kernel.
@@ -19,10 +19,10 @@ pub fn kernel(count: u32) -> Result<Kernel, Error> {
     let reference = |host: &crate::kernel::Host| {
         let done = host.world().step;
         let (position, velocity, acceleration) = (host.read(POSITION)?, host.read(VELOCITY)?, host.read(ACCELERATION)?);
-        // What single precision cannot hold ends a run on every backend.
+        // Numbers beyond single precision end a run on every backend.
         let fits = |v: glam::DVec4| v.as_vec4().is_finite();
         let well = |i: &usize| fits(position[*i]) && fits(velocity[*i]) && fits(acceleration[*i]);
-        // The largest component, as the device holds it.
+        // The largest component, in single precision as on the device.
         #[expect(clippy::cast_possible_truncation, reason = "as the device holds it")]
         let speed = |i: usize| velocity[i].truncate().abs().max_element() as f32;
         let all = || 0..position.len();

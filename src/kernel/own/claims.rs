@@ -3,7 +3,7 @@
 use crate::error::Error;
 use crate::kernel::{Columns, Kernel, Plan};
 
-/// Refuses a law that writes a field of motes. Columns belong to no law: a law says which of them it writes.
+/// Refuses a law that writes a field of motes. Columns belong to no law: a law lists those that it writes.
 ///
 /// # Errors
 /// [`Error::Shader`] that names the law, the field and the kernel that it belongs to.

@@ -1,5 +1,5 @@
-//! How deep a user's text goes. naga and drivers walk down into it by recursion, and a stack that is too small ends the process: such a
-//! text is refused before any of them sees it.
+//! The nesting depth of a user's shader. naga and drivers parse it by recursion, and a stack overflow ends the process: a shader that is
+//! nested too deeply is refused before either of them reads it.
 
 use naga::Span;
 
@@ -8,28 +8,28 @@ use crate::error::Error;
 use crate::kernel::Source;
 use crate::kernel::message::with_place;
 
-/// Words and marks of an expression that may stand in each other, numbers apart: 4000 end a stack of 2 MiB.
+/// The maximum nesting of words and operators of an expression, without numbers: 4000 overflow a stack of 2 MiB.
 const LINKS: usize = 1000;
-/// Branches `else` that may stand in each other: 2000 end it.
+/// The maximum nesting of `else` branches: 2000 overflow it.
 const BRANCHES: usize = 200;
-/// Declarations, each of which may need the next: 8000 end it, and 2000 functions compile for minutes.
+/// The maximum number of declarations, each of which may refer to the next: 8000 overflow it, and 2000 functions take minutes to compile.
 const DECLARATIONS: usize = 1000;
 
 const DECLARING: [&str; 7] = ["fn", "const", "alias", "struct", "var", "override", "const_assert"];
 
-/// Between two brackets: how deep what stands there goes, since the last comma, and at most.
+/// The depth of the text between two brackets: since the last comma, and at most.
 #[derive(Clone, Copy, Default)]
 struct Bracket {
     since: usize,
     most: usize,
 }
 
-/// What is open at a place of a text.
+/// The open brackets and blocks at a position of a text.
 #[derive(Default)]
 struct Depth {
     outside: Bracket,
     brackets: Vec<Bracket>,
-    /// For each block that is open, how many branches stand in each other in it.
+    /// For each open block, the nesting of branches in it.
     blocks: Vec<usize>,
     branches: usize,
     declarations: usize,
@@ -37,7 +37,7 @@ struct Depth {
 }
 
 impl Depth {
-    /// Reads a word; gives what is too deep with it.
+    /// Reads a word; returns what is nested too deeply after it.
     fn read(&mut self, text: &str) -> Option<String> {
         let behind_block = std::mem::replace(&mut self.behind_block, text == "}");
         if behind_block && text != "else" {
@@ -69,7 +69,7 @@ impl Depth {
                     self.branches += 1;
                 }
             }
-            // A number goes no deeper; the mark before it does.
+            // A number adds no depth; the operator before it does.
             _ if text.starts_with(|c: char| c == '.' || c.is_ascii_digit()) => {}
             _ => self.bracket().since += 1,
         }
@@ -96,7 +96,7 @@ impl Depth {
     }
 }
 
-/// Refuses a law that is too deep to be parsed.
+/// Refuses a law that is nested too deeply to be parsed.
 pub fn check(sources: &[Source]) -> Result<(), Error> {
     for source in sources.iter().filter(|source| source.law) {
         let mut depth = Depth::default();
@@ -126,7 +126,7 @@ mod tests {
         let chain = |n: usize| format!("x{}", " + y".repeat(n));
         assert!(!is_refused(&f(format!("let a = {};", chain(480)).repeat(20))));
         assert!(is_refused(&f(format!("let a = {};", chain(500)))));
-        // Brackets add up where one begins with another.
+        // Brackets add up where one follows directly on another.
         let mut nested = "x".to_owned();
         for _ in 0..60 {
             nested = format!("({nested} + y * y + y * y)");
@@ -138,7 +138,7 @@ mod tests {
         assert!(!is_refused(&format!("const a = array({list});")));
         let elses = |n: usize| f(format!("if a {{ }}{}", " else if b { c(); }".repeat(n)));
         assert!(!is_refused(&elses(200)) && is_refused(&elses(201)));
-        // One behind another, and one in another.
+        // One after another, and one inside another.
         assert!(!is_refused(&f("if a { } else { b(); } c();".repeat(1000))));
         let inner = |n: usize, inside: &str| format!("if a {{ }}{} else {{ {inside} }}", " else if b { }".repeat(n));
         assert!(!is_refused(&f(inner(120, &inner(70, "")))) && is_refused(&f(inner(120, &inner(90, "")))));

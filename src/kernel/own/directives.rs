@@ -1,12 +1,12 @@
-//! `enable`, `requires` and `diagnostic` at the top of a user's file: WGSL wants them before all else, so they go to the
-//! front of the joined text.
+//! `enable`, `requires` and `diagnostic` at the top of a user's file: WGSL requires them before all else, so they are moved to the front of
+//! the joined text.
 
 use super::tokens::{Token, tokens};
 use crate::error::Error;
 use crate::kernel::Source;
 
-/// A file in two parts: its directives, and the rest in its old place, with as many spaces and line ends before it as the
-/// directives had, so that messages name the lines of the file.
+/// Splits a file in two: its directives, and the rest at its old position, after as many spaces and line ends as the directives had, so
+/// that messages give the lines of the file.
 pub fn parted(source: &Source) -> Option<(Source, Source)> {
     let end = end(&tokens(&source.text))?;
     let head = source.text.get(..end)?;
@@ -16,7 +16,7 @@ pub fn parted(source: &Source) -> Option<(Source, Source)> {
     Some((part(head.to_owned()), part(rest)))
 }
 
-/// Where the last directive ends; none where there is none.
+/// The end of the last directive, if there is one.
 fn end(tokens: &[Token]) -> Option<usize> {
     let (mut end, mut rest) = (None, tokens);
     while rest.first().is_some_and(|word| ["enable", "requires", "diagnostic"].contains(&word.text)) {
@@ -27,7 +27,7 @@ fn end(tokens: &[Token]) -> Option<usize> {
     end
 }
 
-/// Refuses what not every device has.
+/// Refuses features that not every device has.
 pub fn check(sources: &[Source]) -> Result<(), Error> {
     for source in sources.iter().filter(|source| source.law) {
         let words = tokens(&source.text);

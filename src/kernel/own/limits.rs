@@ -1,5 +1,5 @@
-//! How large a user's law may be. Drivers put each function where it is called and keep small memory in registers: what is
-//! a line of text can take them minutes and all memory of the machine.
+//! Size limits of a user's law. Drivers inline each function at every call and keep small arrays in registers: one line of text can take
+//! minutes and all memory of the machine to compile.
 
 use std::collections::HashMap;
 
@@ -9,19 +9,19 @@ use naga::{AddressSpace, Block, Function, Handle, Statement, TypeInner};
 use super::Joined;
 use crate::error::Error;
 
-/// Bytes of arrays that one invocation has, each counted as often as its function is called: lavapipe compiles 1 KiB of them in
-/// about a second, 4 KiB in half a minute and 16 KiB in more than three.
+/// Bytes of arrays in one invocation, each counted at every call of its function: lavapipe compiles 1 KiB of them in about a second, 4 KiB
+/// in half a minute and 16 KiB in more than three.
 const MEMORY: u64 = 4 << 10;
-/// The same with the visit, which calls a law some hundred times.
+/// The same, including the visit, which calls a law some hundred times.
 const MEMORY_OF_VISIT: u64 = 32 << 10;
 /// Bytes of a value, or of a constant.
 const VALUE: u64 = 4 << 10;
-/// Expressions and statements, each counted as often as its function is called.
+/// Expressions and statements, each counted at every call of its function.
 const NODES: u64 = 100_000;
-/// The same with the visit.
+/// The same, including the visit.
 const NODES_OF_VISIT: u64 = 1_000_000;
 
-/// What a function is, with all that it calls.
+/// The size of a function, including all that it calls.
 #[derive(Clone, Copy, Default)]
 struct Size {
     memory: u64,
@@ -34,7 +34,7 @@ impl Size {
     }
 }
 
-/// Refuses a law that drivers take minutes to compile.
+/// Refuses a law that takes drivers minutes to compile.
 pub fn check(joined: &Joined) -> Result<(), Error> {
     constants(joined)?;
     let module = joined.module;
@@ -86,7 +86,7 @@ fn bytes(inner: &TypeInner, context: GlobalCtx) -> u64 {
     }
 }
 
-/// Bytes of a variable that can be indexed by what is computed; drivers keep others in registers, and only what is in use.
+/// Bytes of a variable with computed indices; drivers keep others in registers, and only the parts in use.
 fn indexed(module: &naga::Module, ty: Handle<naga::Type>) -> u64 {
     match &module.types[ty].inner {
         inner @ TypeInner::Array { .. } => bytes(inner, module.to_ctx()),
@@ -119,7 +119,7 @@ fn private(joined: &Joined) -> u64 {
     private.map(|(_, variable)| indexed(module, variable.ty)).fold(0, u64::saturating_add)
 }
 
-/// Refuses values that fill the registers of many processors.
+/// Refuses values that are too large for the registers of many processors.
 fn values(joined: &Joined, handle: Handle<Function>, function: &Function) -> Result<(), Error> {
     for (expression, _) in function.expressions.iter() {
         let inner = joined.info[handle][expression].ty.inner_with(&joined.module.types);
@@ -135,7 +135,7 @@ fn values(joined: &Joined, handle: Handle<Function>, function: &Function) -> Res
     Ok(())
 }
 
-/// The size of a function, which calls itself on no way: that was validated.
+/// The size of a function. It is not recursive: that was validated.
 fn size(joined: &Joined, handle: Handle<Function>, known: &mut HashMap<Handle<Function>, Size>) -> Size {
     if let Some(size) = known.get(&handle) {
         return *size;
@@ -158,7 +158,7 @@ fn sum(joined: &Joined, function: &Function, known: &mut HashMap<Handle<Function
     size
 }
 
-/// Counts the statements of a block, and notes what it calls.
+/// Counts the statements of a block, and collects its calls.
 fn statements(block: &Block, calls: &mut Vec<Handle<Function>>) -> u64 {
     let mut count = 0;
     for statement in block {

@@ -1,23 +1,23 @@
-//! Loops in a user's law. Some drivers end the loops of an invocation after 65 535 iterations, and none ends a loop that has no
-//! end: a law that has loops is joined with shaders/own/turns.wgsl, which sees the one and ends the other.
+//! Loops in a user's law. Some drivers end the loops of an invocation after 65 535 iterations, and none ends an infinite loop: a law with
+//! loops is joined with shaders/own/turns.wgsl, which detects the first and ends the second.
 
 use super::tokens::{Token, tokens};
 use crate::kernel::Source;
 
-/// Iterations of a loop that is not looked at, at most: its text says how many it has.
+/// The maximum number of iterations of a loop that is not counted: its text gives its number of iterations.
 const SHORT: u32 = 64;
 
 /// A loop of a text.
 struct Loop {
-    /// Where its body begins, behind the brace \[bytes\].
+    /// The start of its body, after the brace \[bytes\].
     body: usize,
-    /// What the function around it returns, as it is written; nothing if it returns nothing.
+    /// The return type of the function around it, as written; empty if it returns nothing.
     returns: String,
-    /// Its turns, where its text says them and it does nothing that takes turns of its own.
+    /// Its number of iterations, if its text gives it and its body has no loops or calls of its own.
     turns: Option<u32>,
 }
 
-/// Whether a text has loops. `for`, `while` and `loop` are reserved: they name nothing else.
+/// Whether a text has loops. `for`, `while` and `loop` are reserved words.
 pub fn has_loops(text: &str) -> bool {
     tokens(text).iter().any(|token| is_loop(token.text))
 }
@@ -26,7 +26,7 @@ fn is_loop(word: &str) -> bool {
     ["for", "while", "loop"].contains(&word)
 }
 
-/// Sources of which users' loops are watched.
+/// Sources with counters in users' loops.
 pub fn watched_sources(sources: &[Source]) -> Vec<Source> {
     let watch = |source: &Source| match watched(&source.text) {
         Some(text) if source.law => Source { text: text.into(), ..source.clone() },
@@ -35,8 +35,8 @@ pub fn watched_sources(sources: &[Source]) -> Vec<Source> {
     sources.iter().map(watch).collect()
 }
 
-/// The text with a look at the iteration counter at the start of each loop of unknown length; nothing is moved to
-/// another line. `None` where every loop says its turns, or there is none.
+/// The text with a check of the iteration counter at the start of each loop of unknown length; line numbers are unchanged. `None` where the
+/// text gives the length of every loop, or has none.
 fn watched(text: &str) -> Option<String> {
     let loops: Vec<Loop> = loops(text).into_iter().filter(|one| one.turns.is_none()).collect();
     if loops.is_empty() {
@@ -76,14 +76,14 @@ fn loops(text: &str) -> Vec<Loop> {
     all
 }
 
-/// What stands between the arrow and the brace of a function's head.
+/// The text between the arrow and the brace of a function's head.
 fn returned(text: &str, head: &[Token]) -> String {
     let arrow = head.windows(2).position(|pair| pair[0].text == "-" && pair[1].text == ">");
     let ends = arrow.and_then(|arrow| Some((head.get(arrow + 1)?.end(), head.last()?.at)));
     ends.and_then(|(from, to)| text.get(from..to)).unwrap_or_default().trim().to_owned()
 }
 
-/// The words up to the brace that closes the first.
+/// The number of words up to the brace that closes the first.
 fn matching(tokens: &[Token]) -> usize {
     let mut depth = 0_usize;
     for (at, token) in tokens.iter().enumerate() {
@@ -97,7 +97,7 @@ fn matching(tokens: &[Token]) -> usize {
     tokens.len()
 }
 
-/// The turns of `for (var i = 0u; i < 8u; i++)`, and of its like, if its body leaves i alone, has no loop and calls no
+/// The number of iterations of `for (var i = 0u; i < 8u; i++)` and similar loops, if the body does not change i, has no loop and calls no
 /// function of the file.
 fn counted(head: &[Token], body: &[Token], functions: &[&str]) -> Option<u32> {
     let words: Vec<&str> = head.iter().map(|token| token.text).collect();
@@ -119,11 +119,11 @@ fn counted(head: &[Token], body: &[Token], functions: &[&str]) -> Option<u32> {
     (same && !changed && plain && turns <= SHORT).then_some(turns)
 }
 
-/// Whether the name at a place is written to, or lent to something that may.
+/// Whether the name at a position is assigned to, or passed to something that may.
 fn changes(body: &[Token], at: usize) -> bool {
     let before: Vec<&str> = body[..at].iter().rev().map(|token| token.text).take(2).collect();
     let lent = before.first() == Some(&"&") && before.last() != before.first() || before == ["&"];
-    // Brackets may stand around what is assigned to.
+    // There may be brackets around the target of an assignment.
     let after: Vec<&str> =
         body[at + 1..].iter().map(|token| token.text).skip_while(|word| *word == ")").take(3).collect();
     let written = match after.as_slice() {
@@ -135,7 +135,7 @@ fn changes(body: &[Token], at: usize) -> bool {
     lent || written
 }
 
-/// An integer as WGSL writes it.
+/// An integer in WGSL notation.
 fn number(word: &str) -> Option<u32> {
     word.strip_suffix(['u', 'i']).unwrap_or(word).parse().ok()
 }

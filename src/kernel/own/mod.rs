@@ -1,4 +1,4 @@
-//! A user's law before it comes to a driver: it is a stranger's text, and drivers believe what they are given.
+//! Validation of a user's law before it is compiled by a driver: it is untrusted text, and drivers do not protect themselves against it.
 
 mod claims;
 mod depth;
@@ -23,7 +23,7 @@ pub use loops::{has_loops, watched_sources};
 pub use signature::mismatch;
 pub use tokens::tokens;
 
-/// Joined sources, some of them a user's, as naga understands them.
+/// Joined sources, some of them a user's, as parsed by naga.
 pub struct Joined<'a> {
     pub module: &'a Module,
     pub info: &'a ModuleInfo,
@@ -31,10 +31,10 @@ pub struct Joined<'a> {
 }
 
 impl Joined<'_> {
-    /// Refuses what a law must not do, and what no driver should be asked for.
+    /// Refuses laws that exceed the limits or do what a law must not do.
     ///
     /// # Errors
-    /// [`Error::Shader`] with the place in the user's file.
+    /// [`Error::Shader`] with the position in the user's file.
     pub fn check(&self) -> Result<(), Error> {
         directives::check(self.sources)?;
         reach::check(self)?;
@@ -44,7 +44,7 @@ impl Joined<'_> {
     pub fn written(&self) -> Vec<String> {
         reach::written(self)
     }
-    /// Whether something stands in a user's law.
+    /// Whether a span is in a user's law.
     fn is_law(&self, span: Span) -> bool {
         span.to_range()
             .and_then(|range| message::place(self.sources, range.start))

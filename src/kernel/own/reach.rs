@@ -6,16 +6,16 @@ use super::Joined;
 use crate::error::Error;
 use crate::kernel::{ACCELERATION, ALARM, HOME, LIFE, POSITION, SPECIES, TARGET, VELOCITY};
 
-/// The group of what a law binds itself.
+/// The bind group of a law's own bindings.
 const GROUP: u32 = 3;
-/// Numbers of bindings end below this: WebGPU promises no more.
+/// Binding numbers must be below this: WebGPU guarantees no more.
 const BINDINGS: u32 = 1000;
-/// Fields that motes has in every simulation, or whose names are reserved. Those of a
-/// particular plan are looked at where there is one.
+/// Fields that every simulation has, or whose names are reserved. Those of a particular plan are checked when there is one.
 const FIELDS: [&str; 8] =
     [POSITION.name, VELOCITY.name, ACCELERATION.name, SPECIES.name, LIFE.name, TARGET.name, HOME.name, ALARM.name];
 
-/// Refuses a law that runs by itself, binds what is not its own, touches what motes writes, or waits for others.
+/// Refuses a law with an entry point, with bindings that are not its own, with writes to fields of motes, or with operations that wait for
+/// other invocations.
 pub fn check(joined: &Joined) -> Result<(), Error> {
     for source in joined.sources.iter().filter(|source| source.law) {
         if source.says(&["@", "compute"]) || source.says(&["@", "vertex"]) || source.says(&["@", "fragment"]) {
@@ -44,7 +44,7 @@ pub fn written(joined: &Joined) -> Vec<String> {
     storage.filter_map(|(_, variable)| variable.name.clone()).collect()
 }
 
-/// What is wrong with a variable of a law.
+/// The fault of a variable of a law.
 fn binding(variable: &GlobalVariable) -> Result<(), String> {
     let name = variable.name.as_deref().unwrap_or_default();
     let Some(ResourceBinding { group, binding }) = variable.binding else { return Ok(()) };
@@ -66,7 +66,7 @@ fn binding(variable: &GlobalVariable) -> Result<(), String> {
     }
 }
 
-/// Whether a shader may write there, or everything else in the invocation or the workgroup does.
+/// Whether a shader may write in an address space, or all other code of the invocation or the workgroup does.
 fn is_written(space: AddressSpace) -> bool {
     match space {
         AddressSpace::Storage { access } => access.contains(StorageAccess::STORE),
@@ -92,7 +92,7 @@ fn names(joined: &Joined, function: &Function) -> Result<(), Error> {
     Ok(())
 }
 
-/// Refuses what other invocations must take part in: lanes evaluate different particles, and some are at work alone.
+/// Refuses operations in which other invocations must take part: lanes evaluate different particles, and some run alone.
 fn waits(joined: &Joined, block: &Block) -> Result<(), Error> {
     for (statement, span) in block.span_iter() {
         let what = match statement {

@@ -1,12 +1,12 @@
-//! The functions that a visit calls: with which arguments, and what it makes of what they give.
+//! The functions that a visit calls: their arguments and their return types.
 
 use naga::Span;
 
 use super::tokens::{Token, tokens};
 use crate::kernel::{Source, message};
 
-/// What is wrong with a function of a file, if it has one of that name and the visit calls it otherwise: the arguments of
-/// `signature` and what it returns, as `fn name(a: A) -> B`. Names of arguments are free.
+/// The fault of a function of a file, if there is one of that name whose arguments and return type differ from those of `signature`, as
+/// `fn name(a: A) -> B`. Names of arguments are free.
 pub fn mismatch(source: &Source, signature: &str) -> Option<String> {
     let wanted = tokens(signature);
     let name = wanted.get(1)?;
@@ -20,15 +20,15 @@ pub fn mismatch(source: &Source, signature: &str) -> Option<String> {
     let bytes = |at: usize| u32::try_from(at).unwrap_or(u32::MAX);
     let span = Span::new(bytes(found.at), bytes(found.end()));
     let message = format!("motes calls `{signature}`, and this function has other arguments or another return type");
-    // As it is written, whatever is put in before it is compiled.
+    // The text as written, without later insertions.
     let plain_text = Source { ours: true, ..source.clone() };
     Some(message::with_place(&message, &[plain_text], span, "here"))
 }
 
-/// The types of the arguments, and last of what is returned; vectors by their short names, and aliases by what they stand for.
+/// The types of the arguments, and last the return type; vectors by their short names, and aliases resolved.
 fn types(head: &[Token], file: &[Token]) -> Vec<String> {
     let (mut types, mut one, mut depth) = (Vec::new(), Vec::new(), 0_usize);
-    // Behind a colon or the arrow a type begins; a comma or the last bracket ends it.
+    // A type begins after a colon or the arrow, and ends at a comma or the last bracket.
     let mut inside = false;
     for (before, token) in std::iter::once("").chain(head.iter().map(|token| token.text)).zip(head) {
         let arrow = before == "-" && token.text == ">";

@@ -5,12 +5,12 @@
 pub struct Token<'a> {
     /// The text.
     pub text: &'a str,
-    /// Where it begins \[bytes\].
+    /// Its start \[bytes\].
     pub at: usize,
 }
 
 impl Token<'_> {
-    /// Where it ends \[bytes\].
+    /// Its end \[bytes\].
     pub fn end(&self) -> usize {
         self.at + self.text.len()
     }
@@ -38,7 +38,7 @@ pub fn tokens(text: &str) -> Vec<Token<'_>> {
     all
 }
 
-/// The ends of a line, as WGSL counts them.
+/// Line ends, as WGSL defines them.
 fn is_line_end(c: char) -> bool {
     matches!(c, '\n' | '\u{b}' | '\u{c}' | '\r' | '\u{85}' | '\u{2028}' | '\u{2029}')
 }

@@ -1,5 +1,5 @@
-//! Files of this crate are parsed once for each way in which they are joined: plans are written many times, and there are few such
-//! ways. A user's files are parsed each time.
+//! Files of this crate are parsed once for each combination in which they are joined: plans are written many times, and there are few such
+//! combinations. A user's files are parsed each time.
 
 use std::borrow::Cow;
 use std::collections::HashMap;
@@ -8,12 +8,12 @@ use std::sync::{Arc, LazyLock, Mutex, PoisonError};
 use super::{Shader, Source};
 use crate::error::Error;
 
-/// Names and texts by their addresses and lengths: they are part of the program, and never change.
+/// Names and texts by their addresses and lengths: they are static.
 type Key = Vec<[usize; 4]>;
 
 static JOINED: LazyLock<Mutex<HashMap<Key, Arc<Shader>>>> = LazyLock::new(Mutex::default);
 
-/// What these files are when they are joined, by `join` where that has not been done before.
+/// The result of joining these files, by `join` if they have not been joined before.
 pub(super) fn once(
     sources: &[Source],
     join: impl FnOnce() -> Result<Arc<Shader>, Error>,
@@ -28,7 +28,7 @@ pub(super) fn once(
     Ok(shader)
 }
 
-/// A file of this crate.
+/// The key of a file of this crate.
 fn key(source: &Source) -> Option<[usize; 4]> {
     let (Cow::Borrowed(file), Cow::Borrowed(text)) = (&source.file, &source.text) else { return None };
     source.ours.then_some([file.as_ptr() as usize, file.len(), text.as_ptr() as usize, text.len()])

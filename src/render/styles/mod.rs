@@ -9,7 +9,7 @@ use crate::kernel::Plan;
 use crate::settings::Settings;
 use crate::state::State;
 
-/// What a picture shows.
+/// The subject of a picture.
 pub struct Subject<'a> {
     /// The particles.
     pub particles: &'a State,
@@ -17,7 +17,7 @@ pub struct Subject<'a> {
     pub few: bool,
     /// The shorter side of the picture \[pixels\].
     pub short: f64,
-    /// How far apart particles would be, spread evenly over the picture \[pixels\].
+    /// The mean distance of particles, if spread evenly over the picture \[pixels\].
     pub apart: f64,
     /// Whether each particle is drawn as a stroke from where it was.
     pub has_tails: bool,
@@ -25,7 +25,7 @@ pub struct Subject<'a> {
     pub scale: f64,
 }
 
-/// How particles are drawn.
+/// A way of drawing particles.
 pub trait Style: Sync {
     /// The radius at which the heaviest particle is drawn at least \[pixels\].
     fn marker(&self, _of: &Subject) -> f64 {
@@ -45,7 +45,7 @@ pub trait Style: Sync {
     fn is_fluid(&self) -> bool {
         false
     }
-    /// Keys of `[picture]` that say nothing in this style.
+    /// Keys of `[picture]` that have no effect in this style.
     fn unused(&self) -> &'static [&'static str] {
         &["drop", "clarity", "foam"]
     }
@@ -83,7 +83,7 @@ pub struct Entry {
     pub name: &'static str,
     /// One line for a list.
     pub about: &'static str,
-    /// What it does.
+    /// The style.
     pub style: &'static dyn Style,
 }
 
@@ -105,7 +105,7 @@ register! {
     density: Density, "the mass along the line of sight, on a logarithmic scale of colours";
 }
 
-/// Which keys of a picture say nothing in its style, though they have other values than the defaults.
+/// The keys of a picture that have no effect in its style, though their values are not the defaults.
 #[must_use]
 pub fn remark(settings: &Settings) -> Option<String> {
     let entry = of(settings);
@@ -121,7 +121,7 @@ pub fn remark(settings: &Settings) -> Option<String> {
     })
 }
 
-/// The style that a scene's `[picture]` says.
+/// The style of a scene's `[picture]`.
 #[must_use]
 pub fn of(settings: &Settings) -> &'static Entry {
     STYLES.iter().find(|entry| entry.name == settings.text("style")).unwrap_or(&STYLES[0])

@@ -1,4 +1,4 @@
-//! The solve for a velocity that does not compress begins.
+//! The start of the divergence solve.
 
 use std::sync::Arc;
 

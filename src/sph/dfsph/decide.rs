@@ -1,4 +1,4 @@
-//! Whether a solve continues: the mean error, summed in one order.
+//! The convergence check of a solve: the mean error, summed in a fixed order.
 
 use std::sync::Arc;
 
@@ -10,9 +10,9 @@ use crate::neighbors::STARTS;
 const PARTS: &str = "parts";
 /// Invocations of a workgroup, as in solve_total.wgsl.
 const WORKGROUP: u32 = 256;
-/// Errors that one workgroup adds by itself.
+/// The maximum number of errors that one workgroup adds alone.
 const ALONE: u32 = 1 << 13;
-/// Of more, how many are one part of the sum.
+/// The number of errors in each part of a longer sum.
 const CHUNK: u32 = 1 << 11;
 
 /// The kernels: one where there are few particles, else two.

@@ -1,4 +1,4 @@
-//! The solve for the density is taken.
+//! The end of the density solve.
 
 use std::sync::Arc;
 

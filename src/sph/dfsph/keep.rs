@@ -6,13 +6,13 @@ use super::{Dfsph, KAPPA, STATE, STATES, WARM_START};
 use crate::error::Error;
 use crate::kernel::{Column, Host, Kernel, Kind, Shape};
 
-/// The field that counts what became of solves.
+/// The field with the statistics of the solves.
 pub const REPORT: &str = "dfsph_report";
-/// Words for each solve of the two, of which the first is for the divergence.
+/// Words of each of the two solves; the first is the divergence solve.
 const EACH: usize = 6;
 /// Its words.
 pub const WORDS: usize = 2 * EACH;
-/// The mean errors that the solves of the last step left.
+/// The mean errors after the solves of the last step.
 pub const ERRORS: &str = "dfsph_errors";
 
 /// The columns of a fluid whose pressure is solved for.

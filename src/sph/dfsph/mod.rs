@@ -1,9 +1,10 @@
-//! Divergence-free smoothed particle hydrodynamics (Bender & Koschier 2015): pressure that is solved for, so that steps may be as
-//! long as the flow allows, and not as short as sound asks.
+//! Divergence-free smoothed particle hydrodynamics (Bender & Koschier 2015): pressure is solved for, so that the time step is limited by
+//! the flow, and not by the speed of sound.
 //!
-//! Both of its solves are one: find κ ≥ 0 such that accelerations a = −Σ V (κ + κ') ∇W compress by no more than s in the step,
-//! dt² D(a) ≤ s. The first has s = −dt D(v), and takes from the velocity what compresses; the second has s = 1 − ρ/ρ₀ − dt D(v +
-//! dt a) of all accelerations, and keeps the density. All of it is done in accelerations, before the kick.
+//! Both of its solves have the same form: find κ ≥ 0 such that accelerations a = −Σ V (κ + κ') ∇W compress by no more than s in the step,
+//! dt² D(a) ≤ s. The first, the divergence solve, has s = −dt D(v), and removes the compressing part of the velocity; the second, the
+//! density solve, has s = 1 − ρ/ρ₀ − dt D(v + dt a) with all accelerations, and keeps the density. Both are expressed in accelerations,
+//! before the kick.
 
 mod begin;
 mod collect;
@@ -24,28 +25,28 @@ use pairs::Pairs;
 
 pub use keep::{ERRORS as DFSPH_ERRORS, REPORT as DFSPH_REPORT, WORDS as DFSPH_WORDS, columns};
 
-/// How well pressure is solved for, and how long one tries.
+/// The tolerances and iteration limits of the pressure solves.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Asked {
-    /// The mean error of the density that may be left, as a part of the density.
+    /// The tolerated mean error of the density, relative to the density.
     pub density: f64,
-    /// The same of what the velocity compresses by in a step.
+    /// The tolerated mean compression by the velocity in a step, likewise.
     pub divergence: f64,
-    /// The fewest iterations.
+    /// The minimum number of iterations.
     pub least: u32,
-    /// The most iterations.
+    /// The maximum number of iterations.
     pub most: u32,
 }
 
-/// Which of the two solves.
+/// One of the two solves.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Solve {
     Divergence,
     Density,
 }
 
-/// How much of the κ of the last step a solve begins with. With none of it a column at rest takes a quarter more iterations; with all
-/// of it that column does not come to rest.
+/// The warm start: the part of the κ of the last step with which a solve begins. Without it a column at rest takes a quarter more
+/// iterations; with all of it the column does not come to rest.
 const WARM: f64 = 0.5;
 
 /// The κ of walls.
@@ -76,10 +77,10 @@ pub struct Dfsph<'a> {
 }
 
 impl<'a> Dfsph<'a> {
-    /// A fluid that keeps its density so well.
+    /// A fluid with these tolerances.
     ///
     /// # Errors
-    /// [`Error::Scene`] when that cannot be had.
+    /// [`Error::Scene`] when they are not possible.
     pub fn new(medium: Medium, asked: Asked, problem: &'a Problem) -> Result<Self, Error> {
         asked.check()?;
         let grid = medium.grid(problem)?;
@@ -102,7 +103,7 @@ impl<'a> Dfsph<'a> {
         plan.add(finish::kernel(self)?);
         Ok(())
     }
-    /// Adds what is done once at the end of a step.
+    /// Adds the kernels at the end of a step.
     ///
     /// # Errors
     /// When a shader does not compile.
@@ -133,8 +134,8 @@ impl<'a> Dfsph<'a> {
     fn name(&self, field: &'static str) -> Name {
         self.grid.field(field).1
     }
-    /// The ids in the order of the cell list: of the fluid, which stands before all others, where it is known how many that are. Else
-    /// wall particles stand there too, and empty slots; what is known of slots says so.
+    /// The ids in the order of the cell list: those of the fluid, which come first, if their number is known. Otherwise wall particles and
+    /// empty slots are included; the state of a slot distinguishes them.
     fn slots(&self) -> impl Fn(&Host) -> Result<Vec<usize>, Error> + Send + Sync + use<> {
         let fluid = self.grid.of_those_ahead();
         move |host| {
@@ -145,7 +146,7 @@ impl<'a> Dfsph<'a> {
             Ok(ids.iter().take(end).map(|id| *id as usize).collect())
         }
     }
-    /// What a search is made of, of files that know what `state.wgsl` says.
+    /// The files of a search, with files that use `state.wgsl`.
     fn files(&self, own: Vec<Source>) -> Vec<Source> {
         let mut all = vec![crate::shader!("sph/dfsph/state.wgsl"), self.medium.smoothing.source()];
         all.push(crate::shader!("sph/medium.wgsl"));
@@ -176,7 +177,7 @@ impl<'a> Dfsph<'a> {
         };
         Ok(self.bound(kernel))
     }
-    /// A kernel over slots or particles, or of so many invocations.
+    /// A kernel over slots or particles, or with a given number of invocations.
     fn plain(
         &self,
         name: &str,
@@ -224,7 +225,7 @@ impl Solve {
     }
 }
 
-/// The same with values for `override`s, of those that its shaders have.
+/// The same with values for those `override`s that its shaders have.
 fn with(mut kernel: Kernel, constants: &[(&'static str, f64)]) -> Kernel {
     for pass in &mut kernel.passes {
         pass.constants.extend(pass.shader.reflection().known(constants));
@@ -233,10 +234,10 @@ fn with(mut kernel: Kernel, constants: &[(&'static str, f64)]) -> Kernel {
 }
 
 impl Asked {
-    /// Whether that can be had.
+    /// Checks whether the tolerances are possible.
     ///
     /// # Errors
-    /// [`Error::Scene`] when it cannot.
+    /// [`Error::Scene`] when they are not.
     pub fn check(&self) -> Result<(), Error> {
         /// Sums of thirty terms near 1, in single precision.
         const FINEST: f64 = 2e-6;

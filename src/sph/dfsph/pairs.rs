@@ -1,4 +1,4 @@
-//! Which particles are in range of which, kept for all laws of a step, where there is room for it: one search serves some twenty of them.
+//! The pairs in range, stored for all laws of a step, if there is room for them: one search serves some twenty of them.
 
 use super::{Dfsph, PAIRS};
 use crate::error::Error;
@@ -7,7 +7,7 @@ use crate::neighbors::Grid;
 use crate::sph::Medium;
 use crate::visit::{Candidate, Law, Search};
 
-/// How many more neighbours there is room for than a fluid at rest has: a particle with more is reported, and ends the run.
+/// The capacity for neighbours, relative to those of a fluid at rest: a particle with more is reported, and ends the run.
 const ROOM: u32 = 2;
 /// Rows, in whole lots of these.
 const LOT: u32 = 8;
@@ -24,7 +24,7 @@ pub struct Pairs {
 }
 
 impl Pairs {
-    /// Where a binding holds them.
+    /// The pairs, if they fit a binding.
     pub fn fitting(medium: &Medium, grid: &Grid, problem: &Problem) -> Option<Self> {
         let ball =
             if medium.dimensions == 2 { 1.0 } else { 4.0 / 3.0 * medium.support } * medium.support * medium.support;
@@ -56,7 +56,7 @@ impl Pairs {
         kernel.scratch.push(of.name(PAIRS));
         Ok(self.bound(of, kernel))
     }
-    /// The kernel of a law that evaluates what a particle is paired with.
+    /// The kernel of a law that evaluates the stored pairs of a particle.
     pub fn sweep(self, of: &Dfsph<'_>, law: &Law) -> Result<Kernel, Error> {
         let (pass, tables) = self.pass(of, law, crate::shader!("sph/dfsph/paired.wgsl"))?;
         let (name, passes, reference) = (law.name.clone(), vec![pass], law.reference.clone());

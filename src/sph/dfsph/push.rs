@@ -31,18 +31,18 @@ pub fn push(of: &Dfsph<'_>, solve: Solve) -> Result<Kernel, Error> {
     of.sweep(Law::searching(&name, search, wgsl, Vec::new(), &[PUSHES], gather, finish))
 }
 
-/// What a search of accelerations loads of a neighbour.
+/// The data of a neighbour that a search for accelerations loads.
 pub const PUSHED: Candidate = Candidate {
     particle: crate::shader!("sph/dfsph/pushed.wgsl"),
     broadcast: crate::shader!("sph/dfsph/pushed_broadcast.wgsl"),
 };
 
-/// How a particle is accelerated, and whether that is solved for.
+/// The acceleration of a particle, and whether it is solved for.
 pub fn pushed(of: &Particle) -> DVec4 {
     of.vector(PUSHES).unwrap_or(DVec4::NAN)
 }
 
-/// How fast accelerations make the density grow, as a part of that at rest.
+/// The rate of the density due to accelerations, relative to the rest density.
 pub fn change(medium: Medium) -> impl Fn(&Particle, &Particle, DVec3, &World, &mut f64) + Send + Sync + 'static {
     let smoothed = medium.smoothed();
     move |me, you, r, _, sum| {

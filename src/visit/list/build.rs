@@ -1,4 +1,4 @@
-//! Builds the list anew where a particle has moved too far; else none of its dispatches has a workgroup.
+//! Rebuilds the list when a particle has moved too far; otherwise its dispatches have no workgroups.
 
 use std::sync::Arc;
 
@@ -7,12 +7,12 @@ use crate::kernel::{ALARM, ALARM_WORDS, Host, Indirect, Kernel, Name, Pass, Prob
 use crate::neighbors::{HISTORY, LIST, LIST_STATE, List, SORTED_ID, SORTED_POSITION, STARTS};
 use crate::visit::near::{self, Candidate};
 
-/// Neighbours as the cells are walked.
+/// Neighbours in the order in which the cells are visited.
 const FOUND: &str = "list_found";
-/// Indirect arguments of the dispatches that build it: as they are, and as they are when it is built.
+/// Indirect arguments of the dispatches that build it: the present ones, and those of a rebuild.
 const GO: &str = "arguments of the list";
 pub const ALL: &str = "list_all";
-/// The constant that says how many neighbours of each particle there is room for; it changes no bit of what a step writes.
+/// The constant with the capacity for neighbours of each particle; it changes no bit of what a step writes.
 pub const ROOM: &str = "ROOM";
 /// The list and the history of its pairs before it is rebuilt, and the row of each particle.
 const BEFORE: &str = "list_before";
@@ -20,7 +20,7 @@ const ROW_BEFORE: &str = "row_before";
 const HISTORY_BEFORE: &str = "history_before";
 /// Words of the arguments of a dispatch.
 const EACH: u32 = 3;
-/// How often it is looked whether it must be built for each time that it is, about.
+/// The approximate number of checks for each rebuild.
 const SELDOM: u64 = 8;
 
 /// The kernel that keeps the list up to date.
@@ -78,7 +78,7 @@ pub fn kernel(list: List, problem: &Problem) -> Result<Kernel, Error> {
     })
 }
 
-/// Finds the neighbours of all particles, fixed ones too, as the cells are walked.
+/// Finds the neighbours of all particles, fixed ones too, in the order of the cells.
 fn search(list: &List, problem: &Problem) -> Result<Vec<Pass>, Error> {
     let candidate = Candidate {
         particle: crate::shader!("neighbors/list_candidate.wgsl"),
@@ -98,7 +98,7 @@ fn state() -> Source {
     crate::shader!("neighbors/list_state.wgsl")
 }
 
-/// Looks whether a particle has moved too far.
+/// Checks whether a particle has moved too far.
 fn moved(list: &List, problem: &Problem) -> Result<Pass, Error> {
     let shader = Shader::join(&[
         crate::shader!("world.wgsl"),
@@ -112,7 +112,7 @@ fn moved(list: &List, problem: &Problem) -> Result<Pass, Error> {
     Ok(Pass { constants, ..Pass::new(shader, problem.capacity) })
 }
 
-/// Keeps the history of pairs, and gives it to them again.
+/// Saves the history of pairs, and restores it after the rebuild.
 fn history(list: &List, problem: &Problem) -> Result<[Pass; 2], Error> {
     let pass = |file: Source, layers: u32| -> Result<Pass, Error> {
         let ground = [

@@ -11,19 +11,19 @@ use crate::neighbors::{HISTORY, LIST, List, NONE};
 use crate::visit::particle::{Particle, View};
 use crate::visit::{Outcome, result};
 
-/// What a pair remembers, word by word.
+/// The history of a pair, word by word.
 pub struct Memory<'a> {
     last: &'a [f64],
     next: &'a mut [f64],
 }
 
 impl Memory<'_> {
-    /// What the last step left; 0 where the pair was not in range then, or nothing was left.
+    /// The value stored by the last step; 0 where the pair was not in range then, or nothing was stored.
     #[must_use]
     pub fn recall(&self, word: usize) -> f64 {
         self.last.get(word).copied().unwrap_or(0.0)
     }
-    /// What this step leaves.
+    /// Stores a value for the next step.
     pub fn remember(&mut self, word: usize, value: f64) {
         if let Some(place) = self.next.get_mut(word) {
             *place = value;
@@ -31,13 +31,13 @@ impl Memory<'_> {
     }
 }
 
-/// What one particle makes of its neighbours, and what its pairs remember then: places and values.
+/// The result of one particle, and the new history of its pairs: indices and values.
 struct Made {
     outcome: (usize, Outcome),
     words: Vec<(usize, f64)>,
 }
 
-/// All pairs in range, in the order of ids, with so many words of history.
+/// All pairs in range, in the order of ids, with `words` words of history.
 pub fn remembering<S: Default>(
     range: f64,
     slots: usize,

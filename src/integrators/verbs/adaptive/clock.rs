@@ -1,4 +1,4 @@
-//! The time by a clock that counts ticks.
+//! The time, by a clock that counts ticks.
 
 use std::sync::Arc;
 
@@ -21,7 +21,7 @@ pub fn at(factor: f64, problem: &Problem) -> Result<Kernel, Error> {
     Ok(Kernel { sizes: vec![(STEP_CLOCK.name.into(), STEP_CLOCK_WORDS as u64)], ..kernel })
 }
 
-/// A step is done.
+/// Counts a completed step.
 pub fn tick(problem: &Problem) -> Result<Kernel, Error> {
     let shader = Shader::join(&[crate::shader!("world.wgsl"), crate::shader!("integrators/tick_adaptive.wgsl")])?;
     let unit = problem.dt;

@@ -23,7 +23,7 @@ impl Work for Advance {
     }
 }
 
-/// The kernel, for a part of the step; `verb` is what the integrator says.
+/// The kernel, for a part of the step; `verb` is the verb of the integrator.
 pub fn advance(verb: &str, pair: &Advanced, factor: f64, problem: &Problem) -> Result<Kernel, Error> {
     let work = Advance { pair: pair.clone(), factor, problem: problem.clone() };
     let fields = vec![("value", pair.part.buffer.clone()), ("rate", pair.rate.clone())];

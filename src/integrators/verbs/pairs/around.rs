@@ -44,12 +44,12 @@ fn kept(part: &Part) -> Name {
     format!("kept_{}", part.buffer).into()
 }
 
-/// Keeps the buffer of a rate that the next step is going to use.
+/// Saves the buffer of a rate that the next step uses.
 pub fn keep(part: &Part, problem: &Problem) -> Result<Kernel, Error> {
     copy("keep", part, [part.buffer.clone(), kept(part)], problem)
 }
 
-/// Puts it back.
+/// Restores it.
 pub fn restore(part: &Part, problem: &Problem) -> Result<Kernel, Error> {
     copy("restore", part, [kept(part), part.buffer.clone()], problem)
 }

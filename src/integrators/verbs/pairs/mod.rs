@@ -1,4 +1,4 @@
-//! The verbs for declared columns: what integrators do to positions and velocities, they do to every column with a rate.
+//! The verbs for declared columns: every column with a rate is advanced like positions and velocities.
 
 pub mod advance;
 pub mod around;
@@ -14,10 +14,10 @@ use crate::kernel::{
     Column, Columns, Element, Host, Kernel, Name, Pair, Pass, Problem, Reference, Shader, Shape, Source, Table, Threads,
 };
 
-/// The part of a buffer that a column is: what kernels bind of it, and of which elements.
+/// The part of a buffer that a column occupies: the buffer that kernels bind, and the components of its elements.
 #[derive(Debug, Clone)]
 pub struct Part {
-    /// The column, for names.
+    /// The name of the column.
     pub name: Name,
     /// Its buffer.
     pub buffer: Name,
@@ -25,21 +25,21 @@ pub struct Part {
     pub vectors: bool,
     /// Its components of each element.
     pub components: Range<usize>,
-    /// How many elements there are.
+    /// The number of elements.
     pub shape: Shape,
 }
 
-/// A column and the buffer of its rate, which lies there as the column does.
+/// A column and the buffer of its rate, which has the same layout.
 #[derive(Debug, Clone)]
 pub struct Advanced {
-    /// What is advanced.
+    /// The column that is advanced.
     pub part: Part,
     /// The buffer of its rate.
     pub rate: Name,
 }
 
 impl Part {
-    /// That of a declared column.
+    /// The part of a declared column.
     pub fn of(column: &Column, columns: &Columns) -> Self {
         let first = usize::from(column.place.component);
         Self {
@@ -64,7 +64,7 @@ impl Part {
             crate::shader!("integrators/pairs/scalar.wgsl")
         }
     }
-    /// Which particles' elements continue: not those of fixed ones, nor of those that are not active.
+    /// Whether a particle's elements are advanced: not those of fixed or inactive particles.
     fn moving(&self, problem: &Problem, host: &Host) -> Result<impl Fn(usize) -> bool + use<>, Error> {
         let (is_active, mask, slots) = (host.is_active()?, problem.mask.clone(), self.slots());
         let all = matches!(self.shape, Shape::System(_));
@@ -76,19 +76,19 @@ impl Part {
 }
 
 impl Advanced {
-    /// Those of a declared pair.
+    /// The advanced column of a declared pair.
     pub fn of(pair: &Pair, columns: &Columns) -> Self {
         Self { part: Part::of(&pair.column, columns), rate: pair.rate.place.buffer.clone() }
     }
 }
 
-/// The element of a buffer of real numbers, of which a column is a part.
+/// The element of a buffer of real numbers that contains a column.
 pub trait Real: Element<Reference: Add<Output = Self::Reference> + Mul<f64, Output = Self::Reference>> {
-    /// Nothing.
+    /// Zero.
     const ZERO: Self::Reference;
     /// The new value in the components of a column, the old one elsewhere.
     fn own(old: Self::Reference, new: Self::Reference, components: &Range<usize>) -> Self::Reference;
-    /// Whether the components of a column are numbers.
+    /// Whether the components of a column are finite.
     fn is_finite(value: Self::Reference, components: &Range<usize>) -> bool;
 }
 
@@ -116,7 +116,7 @@ impl Real for Vec4 {
     }
 }
 
-/// What a kernel does, for either element.
+/// The operation of a kernel, for either type of element.
 pub trait Work: Clone + Send + Sync + 'static {
     /// The reference.
     fn run<T: Real>(&self, host: &Host) -> Result<(), Error>;
@@ -154,7 +154,7 @@ pub fn kernel(
     let known = |name: &str| shader.reflection().overrides.contains_key(name);
     let own = own.into_iter().filter(|(name, _)| known(name)).map(|(name, value)| (name, value as f64));
     let constants: Vec<_> = constants.iter().copied().chain(own).collect();
-    // Those that are one for each particle need no word of their length.
+    // Fields with one element for each particle need no length.
     let sizes = |fields: &[(&'static str, Name)]| -> Vec<(Name, u64)> {
         let listed = part.shape != Shape::Particle;
         fields.iter().filter(|_| listed).map(|(_, name)| (name.clone(), elements as u64)).collect()

@@ -23,7 +23,7 @@ impl Work for Save {
     }
 }
 
-/// Keeps the start of the step.
+/// Saves the start of the step.
 pub fn save(part: &Part, problem: &Problem) -> Result<Kernel, Error> {
     let fields = vec![("value", part.buffer.clone()), ("start", start(part)), ("slope", slope(part))];
     let file = crate::shader!("integrators/pairs/save.wgsl");
@@ -57,7 +57,7 @@ impl Work for Stage {
     }
 }
 
-/// A stage: `weight` times its slope goes into the sum, and the next slope is wanted `factor` of the step from the start.
+/// A stage: adds `weight` times the slope to the sum, and advances to `factor` of the step from its start for the next slope.
 pub fn stage(pair: &Advanced, weight: f64, factor: f64, problem: &Problem) -> Result<Kernel, Error> {
     let work = Stage { pair: pair.clone(), weight, factor, problem: problem.clone() };
     let (file, constants) = (crate::shader!("integrators/pairs/stage.wgsl"), [("WEIGHT", weight), ("FACTOR", factor)]);

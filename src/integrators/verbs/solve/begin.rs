@@ -1,4 +1,4 @@
-//! A linear solve begins.
+//! The start of a linear solve.
 
 use glam::{DVec3, DVec4};
 use rayon::prelude::*;
@@ -11,7 +11,7 @@ use crate::error::Error;
 use crate::kernel::{ACCELERATION, Host, Kernel, VELOCITY};
 use crate::visit::{ROW, ROWS};
 
-/// As parts of a position, what single precision does not resolve: about a third of its last place.
+/// The resolution of single precision, relative to a position: about a third of its last place.
 const RESOLUTION: f64 = 2e-8;
 
 /// Solves a symmetric system of three by L D Lᵀ.
@@ -26,7 +26,7 @@ fn solved(diagonal: DVec3, across: DVec3, b: DVec3) -> DVec3 {
     DVec3::new(b.x / diagonal.x - l.x * v - l.y * z, v, z)
 }
 
-/// The kernel; `start` where the step is expanded about its start.
+/// The kernel; `start`: the step is linearized about its start.
 pub fn kernel(system: &System<'_>, start: bool) -> Result<Kernel, Error> {
     let factor = system.factor;
     let run = move |host: &Host| {

@@ -9,7 +9,7 @@ use crate::error::Error;
 use crate::kernel::{Host, Kernel, Shader};
 use crate::visit::{LINK, LINK_START, ROW, ROWS, View};
 
-/// A z and the parts of the sums; `turned` where the states have changed places.
+/// A z and the parts of the sums; `turned`: the two states are swapped.
 pub fn product(system: &System<'_>, turned: bool) -> Result<Kernel, Error> {
     let (factor, (chunk, _)) = (system.factor, system.cut());
     let jacobian = system.links.as_ref().and_then(|law| law.jacobian.clone());
@@ -72,8 +72,8 @@ pub fn product(system: &System<'_>, turned: bool) -> Result<Kernel, Error> {
     Ok(kernel)
 }
 
-/// One step along the direction, unless `limit` iterations are done, or as little is left as is asked: `part` of the
-/// tolerance, so that Newton's method is not held up by what its linear solves leave.
+/// One step along the direction, unless `limit` iterations are done, or the residual meets the tolerance: `part` of the given one, so that
+/// Newton's method is not limited by the residuals of its linear solves.
 pub fn advance(system: &System<'_>, turned: bool, limit: u32, part: f64) -> Result<Kernel, Error> {
     let (limit, tolerance) = (f64::from(limit), system.problem.solver.tolerance);
     let run = move |host: &Host| {

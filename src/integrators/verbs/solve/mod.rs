@@ -1,5 +1,5 @@
-//! The linear solve of implicit integrators: rows of the system, preconditioned conjugate gradients by Chronopoulos & Gear
-//! (1989) in two dispatches for each iteration, and what becomes of the solution. Nothing is read back on the way.
+//! The linear solve of implicit integrators: rows of the system, preconditioned conjugate gradients by Chronopoulos & Gear (1989) in two
+//! dispatches for each iteration, and the update by the solution. Nothing is read back in between.
 
 pub mod begin;
 pub mod iterate;
@@ -15,20 +15,20 @@ use crate::error::Error;
 use crate::forces::Law;
 use crate::kernel::{Field, Kernel, Pass, Problem, Reference, Scalar, Shader, Source};
 
-/// Where a solve begins.
+/// The positions at the start of a solve.
 pub const START_POSITION: Field<Vec4> = Field::new("start_position");
-/// How particles move there.
+/// The velocities at the start of a solve.
 pub const START_VELOCITY: Field<Vec4> = Field::new("start_velocity");
-/// What explicit laws say there, kept while the others are solved.
+/// The accelerations of explicit laws there, saved during the solve.
 pub const EXPLICIT: Field<Vec4> = Field::new("explicit_acceleration");
 const RESIDUALS: Field<Vec4> = Field::new("residuals");
 const DIRECTIONS: Field<Vec4> = Field::new("directions");
 const DOTS: Field<f32> = Field::new("dots");
-/// The state of the solve when it has ended. While it runs, state and next state change places.
+/// The state of the solve when it has ended. During the solve, state and next state are swapped.
 pub const STATE: &str = "solve_state";
 const OTHER: &str = "solve_other";
 
-/// What the shader's numbers of a row mean.
+/// The values of a row's kind, as in the shader.
 const HELD: f64 = 0.0;
 const TIED: f64 = 1.0;
 const ALONE: f64 = 2.0;
@@ -68,17 +68,17 @@ impl State {
     }
 }
 
-/// A part of the step that is solved for, and how.
+/// The part of the step that is solved for, and its method.
 #[derive(Clone)]
 pub struct System<'a> {
     pub problem: &'a Problem,
-    /// The length of the part, of the step.
+    /// The length of the part, relative to the step.
     pub factor: f64,
     /// The law of links that enters the matrix, if there is one.
     pub links: Option<Law>,
 }
 
-/// Trips of one invocation in one dispatch, at most: every driver does 65 535.
+/// The maximum number of loop iterations of one invocation in one dispatch: every driver allows 65 535.
 const TRIPS: u32 = 60_000;
 /// Invocations in a workgroup of the two halves of an iteration.
 const WORKGROUP: u32 = 256;
@@ -86,14 +86,14 @@ const WORKGROUP: u32 = 256;
 const SOFTWARE: u32 = 16;
 
 impl System<'_> {
-    /// How many particles a workgroup takes in an iteration, and how many workgroups there are.
+    /// The number of particles of a workgroup in an iteration, and the number of workgroups.
     pub fn cut(&self) -> (u32, u32) {
         let (count, machine) = (self.problem.capacity, &self.problem.machine);
         let starts = &self.problem.network.link_start;
         let degree = starts.windows(2).map(|w| w[1] - w[0]).max().filter(|_| self.links.is_some()).unwrap_or(0);
         let most = if machine.software { SOFTWARE } else { (machine.invocations / WORKGROUP).max(1) };
         let groups = count.div_ceil(WORKGROUP).clamp(1, most);
-        // Particles of one invocation, and no more than its trips allow.
+        // Particles of one invocation, limited by its number of loop iterations.
         let each = count.div_ceil(groups).div_ceil(WORKGROUP).clamp(1, (TRIPS / (degree + 1)).max(1));
         (each * WORKGROUP, count.div_ceil(each * WORKGROUP).max(1))
     }
@@ -123,13 +123,13 @@ impl System<'_> {
             kernel
         })
     }
-    /// The same with the sizes of what does not have one element for each particle.
+    /// The same with the sizes of fields that do not have one element for each particle.
     fn sized(&self, mut kernel: Kernel) -> Kernel {
         let (_, groups) = self.cut();
         kernel.sizes.extend([(STATE.into(), 1), (OTHER.into(), 1), (DOTS.name.into(), u64::from(groups))]);
         kernel
     }
-    /// Cuts a kernel of one dispatch into the workgroups of an iteration.
+    /// Divides a kernel of one dispatch into the workgroups of an iteration.
     fn in_runs(&self, mut kernel: Kernel) -> Result<Kernel, Error> {
         let (chunk, groups) = self.cut();
         for pass in &mut kernel.passes {
@@ -142,13 +142,13 @@ impl System<'_> {
     }
 }
 
-/// A kernel of one dispatch over all particles, of files that know rows.
+/// A kernel of one dispatch over all particles, of files that access rows.
 fn plain(name: &str, system: &System<'_>, source: Source, reference: Reference) -> Result<Kernel, Error> {
     let shader = Shader::join(&[crate::shader!("world.wgsl"), crate::shader!("integrators/solve_row.wgsl"), source])?;
     Ok(system.sized(Kernel::new(name, shader, Vec::new(), system.problem.capacity, reference)))
 }
 
-/// The same with a name of constants, so that two that differ in them are two.
+/// The same, named after its constants, so that kernels with different constants differ.
 fn with(mut kernel: Kernel, constants: &[(&'static str, f64)]) -> Kernel {
     for pass in &mut kernel.passes {
         let known = pass.shader.reflection();
@@ -157,7 +157,7 @@ fn with(mut kernel: Kernel, constants: &[(&'static str, f64)]) -> Kernel {
     kernel
 }
 
-/// The same on the two states, in their order; `turned` the other way round.
+/// The same on the two states, in their order; `turned`: swapped.
 fn on_states(mut kernel: Kernel, turned: bool) -> Kernel {
     let (from, to) = if turned { (OTHER, STATE) } else { (STATE, OTHER) };
     let passes = std::mem::take(&mut kernel.passes);

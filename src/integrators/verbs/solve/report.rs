@@ -4,12 +4,12 @@ use super::{STATE, State, System, plain, reference, with};
 use crate::error::Error;
 use crate::kernel::{Host, Kernel};
 
-/// The field that keeps it.
+/// The field that holds it.
 pub const NAME: &str = "solve_report";
 /// Its words.
 pub const WORDS: usize = 6;
 
-/// The kernel; by Newton's method a step has converged when its residual has.
+/// The kernel; a step by Newton's method has converged when its residual meets the tolerance.
 pub fn kernel(system: &System<'_>, newton: bool) -> Result<Kernel, Error> {
     let run = move |host: &Host| {
         let state = State::of(&host.reading::<f32>(STATE)?);

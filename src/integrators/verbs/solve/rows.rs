@@ -10,7 +10,7 @@ use crate::kernel::{Bounds, Host, Kernel};
 use crate::links::{Half, WORDS};
 use crate::visit::{Jacobian, LINK, LINK_START, ROW, ROWS, View};
 
-/// Links, as the references read it.
+/// Links, as read by the references.
 pub struct Ties<'a> {
     pub jacobian: &'a Jacobian,
     pub bodies: &'a [Particle<'a>],
@@ -24,7 +24,7 @@ impl Ties<'_> {
         let [from, to] = [id, id + 1].map(|place| self.start.get(place).map_or(0, |n| *n as usize) * WORDS);
         self.link.get(from..to).unwrap_or_default().chunks_exact(WORDS).map(Half::new)
     }
-    /// The sum of the Jacobian's products over a particle's links; `way` gives dx and dv, relative to the particle's own.
+    /// The sum of the Jacobian's products over a particle's links; `way` returns dx and dv, relative to those of the particle.
     pub fn sum(&self, id: usize, way: impl Fn(usize) -> (DVec3, DVec3)) -> DVec3 {
         let Jacobian::Links(jvp) = self.jacobian else { return DVec3::ZERO };
         let me = &self.bodies[id];
@@ -37,7 +37,7 @@ impl Ties<'_> {
     }
 }
 
-/// The rows before laws of each particle alone add theirs; `start` where the step is expanded about its start.
+/// The rows before laws of each particle alone are added; `start`: the step is linearized about its start.
 pub fn kernel(system: &System<'_>, start: bool) -> Result<Kernel, Error> {
     let mask = system.problem.mask.clone();
     let (factor, jacobian) = (system.factor, system.links.as_ref().and_then(|law| law.jacobian.clone()));

@@ -1,10 +1,10 @@
-//! Applying a solution.
+//! The update by a solution.
 
 use super::{DIRECTIONS, START_POSITION, START_VELOCITY, STATE, State, System, plain, reference, with};
 use crate::error::Error;
 use crate::kernel::{Host, Kernel, POSITION, Shader, VELOCITY};
 
-/// v ← v + Δv; `start` where the step is expanded about its start.
+/// v ← v + Δv; `start`: the step is linearized about its start.
 pub fn kernel(system: &System<'_>, start: bool) -> Result<Kernel, Error> {
     let run = move |host: &Host| {
         if start || State::of(&host.reading::<f32>(STATE)?).settled == 0.0 {
