@@ -38,7 +38,7 @@ pub const EQUIVALENT: &[Equivalent] = &[
     same("tree_tile", "let last =", "-", "+", "a lane without a particle is paired with none"),
     same("tree_tile", "if lane == 0u {", "==", "!=", ALL_KNOW),
     same("tree_tile", "if lane == 0u {", "0u", "1u", ALL_KNOW),
-    same("tree_look", "const FAR", "128u", "129u", ROOM),
+    same("tree_look", "const FAR", "128u", "129u", "sums are divided elsewhere, which rounding may show").sometimes(),
     same("tree_look", "var<workgroup> list", "2u", "3u", ROOM),
     same("tree_look", "let also =", "-", "+", "what holds the group is nearer than its own side, or it is the root"),
     same("tree_look", "s.waits = (s.waits << ", "24u", "25u", DEEP),

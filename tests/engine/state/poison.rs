@@ -8,7 +8,7 @@ use motes::kernel::{Access, Backend, Kernel};
 use motes::{Error, Gpu, Setup, Simulation};
 use pollster::block_on;
 
-use super::restarts::every_scene;
+use super::restarts::{compare, every_scene, mixed};
 use crate::support;
 
 /// What begins with zeros: alarms, the clock, that no list of neighbours is there, the pressure from which a solver starts, and the
@@ -53,5 +53,12 @@ fn what_no_state_holds_does_not_matter() {
         Ok(simulation)
     };
     every_scene(&on, Precision::Single);
+    // What no scene has: every integrator.
+    let mut failures = Vec::new();
+    for entry in motes::integrators::INTEGRATORS {
+        let ended = compare(&|| mixed(entry.name), &on, Precision::Single);
+        failures.extend(ended.err().map(|why| format!("{}: {why}", entry.name)));
+    }
+    assert!(failures.is_empty(), "{}", failures.join("\n"));
     assert!(filled.get() > 100, "{} fields", filled.get());
 }

@@ -64,7 +64,7 @@ fn filed(scene: State, state: &State, precision: Precision) -> State {
 }
 
 /// Runs in one go, and in two from the file of a state.
-fn compare<B: Backend>(
+pub(super) fn compare<B: Backend>(
     make: &dyn Fn() -> Setup,
     on: &dyn Fn(&Setup) -> Result<Simulation<B>, Error>,
     precision: Precision,
@@ -130,7 +130,7 @@ fn every_scene_goes_on_with_the_same_bits_by_the_references() {
 }
 
 /// Pairs, air that depends on time and velocity, friction, and random numbers that are counted by steps.
-fn mixed(integrator: &str) -> Setup {
+pub(super) fn mixed(integrator: &str) -> Setup {
     Setup {
         state: support::cloud(60, 5),
         forces: vec![
