@@ -4,7 +4,7 @@
 use motes::Error;
 use motes::scene::Scene;
 use motes::settings::Key;
-use motes::shapes::{Resolution, SHAPES};
+use motes::shapes::{self, Resolution};
 use toml::{Table, Value};
 
 /// The values that multiply the number of particles of a scene by a factor, as `--set` takes them.
@@ -23,7 +23,7 @@ pub fn overrides(scene: &Scene, factor: f64) -> Result<Vec<String>, Error> {
             let word = |key: &str| table.get(key).and_then(Value::as_str);
             let values = match section {
                 "particles" => word("shape")
-                    .and_then(|name| SHAPES.iter().find(|shape| shape.name == name))
+                    .and_then(shapes::shape)
                     .map(|shape| shaped(shape.resolution, table, [factor, narrower])),
                 "emitter" => Some(emitted(table, [factor, narrower])),
                 _ => word("kind")
@@ -37,7 +37,7 @@ pub fn overrides(scene: &Scene, factor: f64) -> Result<Vec<String>, Error> {
     }
     if all.is_empty() {
         return Err(Error::Scene(format!(
-            "--scale: `{}` has no shape whose number of particles may be another: leave it out",
+            "--scale: `{}` has no shape with an adjustable number of particles: leave it out",
             scene.name
         )));
     }
@@ -73,8 +73,7 @@ fn tables<'a>(root: &'a Table, section: &str) -> impl Iterator<Item = &'a Table>
 fn fitting(root: &Table, narrower: f64) -> f64 {
     let mut common = 0_u64;
     for table in tables(root, "particles") {
-        let shape =
-            table.get("shape").and_then(Value::as_str).and_then(|name| SHAPES.iter().find(|shape| shape.name == name));
+        let shape = table.get("shape").and_then(Value::as_str).and_then(shapes::shape);
         let spacing =
             at(table, "spacing").filter(|_| shape.is_some_and(|shape| shape.resolution == Resolution::Spacing));
         let sides = table.get("size").and_then(Value::as_array).into_iter().flatten().filter_map(number);

@@ -108,7 +108,7 @@ fn contents(path: &Path) -> Result<Contents, Error> {
     Ok(Contents { headings: (0..names.len()).map(heading).collect(), ..Contents::default() })
 }
 
-/// The message for a table whose first row is numbers.
+/// The message for a table with numbers in its first row.
 fn unnamed(record: &ByteRecord) -> String {
     if record.len() == 1 {
         return "begins with a line of one number, as an XYZ file does: rename it to .xyz, or make it a table whose first line \

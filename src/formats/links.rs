@@ -27,7 +27,7 @@ pub enum Tie {
     Rod,
 }
 
-/// The defaults for links whose rows do not give a value.
+/// The defaults for links where a row gives no value.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Usual {
     /// The kind of the link.

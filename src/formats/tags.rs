@@ -1,4 +1,4 @@
-//! The tags of an XML file, one after another: the part of XML that VTK files need, whose raw data is not XML.
+//! The tags of an XML file, one after another: the part of XML that VTK files need, since their raw data is not XML.
 
 /// A tag.
 #[derive(Debug, Clone, PartialEq)]

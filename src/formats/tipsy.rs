@@ -163,7 +163,7 @@ fn counted(header: &[u8; HEADER]) -> Result<(Bytes, [u64; 3]), String> {
     Ok((order, counts.map(|count| u64::try_from(count).unwrap_or(0))))
 }
 
-/// The columns that the format cannot hold, and whose values are not the initial ones.
+/// The columns that the format cannot hold, and that have other than initial values.
 fn left_out(state: &State) -> Vec<String> {
     let titles = super::titles::strips(state).into_iter().map(|strip| strip.text);
     titles.filter(|title| !HELD.contains(&title.as_str())).collect()

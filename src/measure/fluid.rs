@@ -35,7 +35,10 @@ pub const MEASURE: Measure = Measure {
         ("outside", "particles outside of the box; must be 0"),
         ("broken", "particles with NaN or infinity; must be 0"),
     ],
-    usual: |setup| Ok(Book::of(setup)?.map(|_| Settings::default())),
+    usual: |setup| {
+        let flows = setup.forces.iter().any(|force| force.properties().makes_fluid);
+        Ok(flows.then(Settings::default))
+    },
     begin: |setup, _| match Book::of(setup)? {
         Some(book) => Ok(Box::new(book)),
         None => Err(Error::Scene("the measure `fluid` is for a scene with a fluid, and this one has none: leave it out".to_owned())),
