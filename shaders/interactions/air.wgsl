@@ -5,8 +5,6 @@ struct Sum { force: vec3f }
 
 @group(3) @binding(0) var<uniform> params: Params;
 
-const TAU: f32 = 6.283185307;
-
 fn gather(me: Particle, corner: Corner, sum: ptr<function, Sum>) {
     let a = particle(corner.first);
     let b = particle(corner.second);
@@ -16,11 +14,11 @@ fn gather(me: Particle, corner: Corner, sum: ptr<function, Sum>) {
     let twice = cross(ab, ac);
     let double = length(twice);
     let blows = length(params.wind);
-    // Gusts travel downwind. Whole periods are taken off first: the sine of a large number is not accurate.
+    // Gusts travel downwind.
     var along = 0.0;
     if blows > 0.0 { along = dot(a.position, params.wind) / blows; }
-    let phase = TAU * fract(world.time / params.period - along / params.wavelength);
-    let air = params.wind * (1.0 + params.gust * sin(phase));
+    let phase = world.time / params.period - along / params.wavelength;
+    let air = params.wind * (1.0 + params.gust * circle(phase).y);
     let w = (velocity_of(a) + velocity_of(b) + velocity_of(c)) / 3.0 - air;
     let speed = length(w);
     if !(double > 0.0 && speed > 0.0) { return; }

@@ -27,11 +27,10 @@ fn finish(me: Particle, sum: Sum) -> vec4f {
     let xi = fraction(pcg4d(vec4u(id_of(me.index), world.step, params.seed_low, params.seed_high)).x) - 0.5;
     var way = sum.heading + own;
     if params.vectorial == 1u {
-        way += (params.eta * f32(sum.neighbors + 1u)) * vec2f(cos(TAU * xi), sin(TAU * xi));
+        way += (params.eta * f32(sum.neighbors + 1u)) * circle(xi);
     } else {
-        let c = cos(params.eta * xi);
-        let s = sin(params.eta * xi);
-        way = vec2f(c * way.x - s * way.y, s * way.x + c * way.y);
+        let turned = circle(params.eta * xi / TAU);
+        way = vec2f(turned.x * way.x - turned.y * way.y, turned.y * way.x + turned.x * way.y);
     }
     // Headings that cancel out leave each particle its own; a particle without heading goes along x.
     if dot(way, way) == 0.0 { way = own; }

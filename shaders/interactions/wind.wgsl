@@ -9,9 +9,8 @@ fn force(me: Particle) -> vec4f {
     let speed = length(params.velocity);
     var along = 0.0;
     if speed > 0.0 { along = dot(me.position, params.velocity) / speed; }
-    // Whole periods are taken off first: the sine of a large number is not accurate.
-    let phase = TAU * fract(world.time / params.period - along / params.wavelength);
-    let air = params.velocity * (1.0 + params.gust * sin(phase));
+    let phase = world.time / params.period - along / params.wavelength;
+    let air = params.velocity * (1.0 + params.gust * circle(phase).y);
     return vec4f((air - velocity[me.index].xyz) * params.rate, 0.0);
 }
 
@@ -19,7 +18,7 @@ fn jvp(me: Particle, dx: vec3f, dv: vec3f) -> vec3f {
     let speed = length(params.velocity);
     if speed <= 0.0 { return -params.rate * dv; }
     let way = params.velocity / speed;
-    let phase = TAU * fract(world.time / params.period - dot(me.position, way) / params.wavelength);
-    let slope = -params.gust * cos(phase) * (TAU / params.wavelength) * dot(way, dx);
+    let phase = world.time / params.period - dot(me.position, way) / params.wavelength;
+    let slope = -params.gust * circle(phase).x * (TAU / params.wavelength) * dot(way, dx);
     return params.rate * (slope * params.velocity - dv);
 }

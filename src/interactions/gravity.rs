@@ -129,7 +129,7 @@ impl Component for Gravity {
                 crate::shader!("interactions/gravity_structure_sum.wgsl"),
                 crate::shader!("interactions/gravity_images.wgsl"),
             ];
-            let world = [crate::shader!("world.wgsl"), crate::shader!("fields.wgsl")];
+            let world = [crate::shader!("world.wgsl"), crate::shader!("fields.wgsl"), crate::shader!("law/circle.wgsl")];
             let [structure, images] = ewald::kernels(self.0.number("g"), &world, sources, problem)?;
             plan.push(&numbered("gravity structure", earlier), || Ok(structure))?;
             plan.push(&numbered("gravity images", earlier), || Ok(images))?;

@@ -65,13 +65,14 @@ pub struct Distant {
 }
 
 /// Files that are joined with a law that calls a function of theirs and does not define it.
-const ON_CALL: [(&str, Source); 8] = [
+const ON_CALL: [(&str, Source); 9] = [
     ("is_of", crate::shader!("law/species.wgsl")),
     ("unit", crate::shader!("law/steering.wgsl")),
     ("truncated", crate::shader!("law/steering.wgsl")),
     ("signed_distance", crate::shader!("solids/distance.wgsl")),
     ("pcg4d", crate::shader!("law/random.wgsl")),
     ("fraction", crate::shader!("law/random.wgsl")),
+    ("circle", crate::shader!("law/circle.wgsl")),
     ("pair_index", crate::shader!("law/pair_index.wgsl")),
     ("ended", crate::shader!("law/truncation.wgsl")),
 ];
