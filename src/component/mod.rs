@@ -1,5 +1,6 @@
 //! A component of a simulation: its declarations and its kernels in a step. Everything else is derived from them.
 
+pub(crate) mod bath;
 pub(crate) mod keys;
 pub(crate) mod kind;
 mod misnamed;

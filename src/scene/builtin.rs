@@ -60,4 +60,5 @@ pub const SCENES: &[Builtin] = scenes![
     "vicsek",
     "murmuration",
     "salt",
+    "argon",
 ];

@@ -16,6 +16,33 @@ typed! {
         /// Constrained degrees of freedom: 3 where forces conserve the total momentum, and it is 0.
         removed: u64,
     }
+    /// A heat bath with friction and noise on every particle (Langevin 1908, Bussi & Parrinello 2007).
+    Langevin "langevin" langevin(temperature: f64) {
+        /// K T, twice the mean kinetic energy of a degree of freedom \[energy\].
+        temperature: f64,
+        /// γ, the rate at which velocities are forgotten \[1 / time\].
+        friction: f64,
+        /// Seed of the random numbers, counted by id and step.
+        seed: u64,
+    }
+    /// A heat bath with which particles collide at random (Andersen 1980).
+    Andersen "andersen" andersen(temperature: f64) {
+        /// K T, twice the mean kinetic energy of a degree of freedom \[energy\].
+        temperature: f64,
+        /// ν, the rate of collisions of a particle with the bath \[1 / time\].
+        rate: f64,
+        /// Seed of the random numbers, counted by id and step.
+        seed: u64,
+    }
+    /// The temperature relaxes to a given one; for equilibration only (Berendsen et al. 1984).
+    Berendsen "berendsen" berendsen(temperature: f64) {
+        /// K T, twice the mean kinetic energy of a degree of freedom \[energy\].
+        temperature: f64,
+        /// τ, the relaxation time of the temperature \[time\].
+        time: f64,
+        /// Constrained degrees of freedom: 3 where forces conserve the total momentum, and it is 0.
+        removed: u64,
+    }
     /// Springs that are stretched too far break permanently.
     Tear "tear" tear() {
         /// The strain at which a spring breaks: its extension over its rest length.

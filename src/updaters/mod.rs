@@ -7,5 +7,8 @@ use crate::visit::Over;
 components! {
     UPDATERS, Updater;
     nose_hoover: NoseHoover, "a thermostat: all particles at a given mean temperature, by one variable of the system (Nosé 1984, Hoover 1985)";
+    langevin: Langevin, "a heat bath with friction and noise on every particle (Langevin 1908, Bussi & Parrinello 2007)";
+    andersen: Andersen, "a heat bath with which particles collide at random (Andersen 1980)";
+    berendsen: Berendsen, "the temperature relaxes to a given one; for equilibration only (Berendsen et al. 1984)";
     tear: Tear, "springs that are stretched too far break permanently";
 }

@@ -5,6 +5,7 @@ use std::sync::Arc;
 use glam::{DVec4, Vec4};
 
 use super::{Component, Problem, Properties, Stage};
+use crate::component::bath::TEMPERATURE;
 use crate::error::Error;
 use crate::kernel::{
     Column, Field, Host, Kernel, Kind as Element, Name, POSITION, Pass, Plan, Reference, Shader, Shape, Source, VELOCITY,
@@ -14,10 +15,13 @@ use crate::settings::{Key, Kind, Settings, Value};
 
 /// The keys in a scene.
 pub const KEYS: &[Key] = &[
-    Key::required("temperature", Kind::Positive, "k T, twice the mean kinetic energy of a degree of freedom [energy]"),
+    TEMPERATURE,
     Key::new("time", Kind::Positive, Value::Number(1.0), "τ, the relaxation time of the thermostat; some periods of the fastest motion [time]"),
-    Key::new("removed", Kind::Whole, Value::Number(0.0), "constrained degrees of freedom: 3 where forces conserve the total momentum, and it is 0"),
+    REMOVED,
 ];
+
+/// What does not count as a degree of freedom.
+pub(super) const REMOVED: Key = Key::new("removed", Kind::Whole, Value::Number(0.0), "constrained degrees of freedom: 3 where forces conserve the total momentum, and it is 0");
 
 /// ξ
 const RATE: Field<f32> = Field::new("thermostat_rate");
@@ -26,9 +30,9 @@ const PHASE: Field<f32> = Field::new("thermostat_phase");
 /// m v² of each particle that is free, and 1 where it is.
 const KINETIC: Field<Vec4> = Field::new("thermostat_kinetic");
 /// The sum of these.
-const TOTAL: Field<Vec4> = Field::new("thermostat_total");
+pub(super) const TOTAL: Field<Vec4> = Field::new("thermostat_total");
 /// The relative change of velocities.
-const CHANGE: Field<f32> = Field::new("thermostat_change");
+pub(super) const CHANGE: Field<f32> = Field::new("thermostat_change");
 
 /// `nose_hoover`: v' = a − ξ v, ξ' = (2 K / N k T − 1) / τ², with N degrees of freedom of all particles that are free and have
 /// mass (Nosé, J. Chem. Phys. 81, 511, 1984; Hoover, Phys. Rev. A 31, 1695, 1985). Half of it is done before each step and half after
@@ -49,34 +53,11 @@ impl NoseHoover {
         let [temperature, time, removed] = ["temperature", "time", "removed"].map(|name| settings.number(name));
         Self { temperature, time, removed }
     }
-    /// Refuses what it does not serve.
-    fn fits(&self, plan: &Plan, problem: &Problem) -> Result<(), Error> {
-        let refuse = |why: &str| Err(Error::Scene(format!("nose_hoover {why}")));
-        if plan.kernels.iter().any(|kernel| kernel.names(RATE.name)) {
-            return refuse("is there twice, and both would regulate the same particles: remove one of them");
-        }
-        if problem.has_inactive {
-            return refuse("regulates the same particles all the time: leave out emitters and drains");
-        }
-        if !problem.network.rods.is_empty() {
-            return refuse("counts three degrees of freedom of a particle, and rods take some of them: leave out the rods");
-        }
-        let free = (0..problem.capacity as usize).filter(|id| !problem.is_held(*id)).count();
-        let freedoms = free as f64 * f64::from(problem.bounds.dimensions) - self.removed;
-        if freedoms <= 0.0 {
-            return Err(Error::Scene(format!(
-                "nose_hoover has no degree of freedom to regulate: {free} particles are free, in {} dimensions, less {} that are removed",
-                problem.bounds.dimensions, self.removed
-            )));
-        }
-        Ok(())
-    }
     /// Kernels of a part of a step.
     fn part(&self, factor: f64, problem: &Problem) -> Result<Vec<Kernel>, Error> {
-        let (field, total): (Name, Name) = (KINETIC.name.into(), TOTAL.name.into());
-        let mut sum = reduce(Operation::Sum, Items::Vec4, &field, &total, problem.capacity, &problem.machine)?;
-        sum.name = "thermostat total".into();
-        Ok(vec![kinetic(problem)?, sum, self.advance(factor, problem)?, scale(problem)?])
+        let mut kernels = measured(problem)?;
+        kernels.extend([self.advance(factor, problem)?, scale(problem)?]);
+        Ok(kernels)
     }
     /// ξ and η over a part of a step, and what velocities change by.
     fn advance(&self, factor: f64, problem: &Problem) -> Result<Kernel, Error> {
@@ -112,6 +93,37 @@ impl NoseHoover {
     }
 }
 
+/// Refuses what thermostats of all particles do not serve.
+pub(super) fn serves(name: &str, removed: f64, plan: &Plan, problem: &Problem) -> Result<(), Error> {
+    let refuse = |why: &str| Err(Error::Scene(format!("{name} {why}")));
+    if plan.kernels.iter().any(|kernel| kernel.names(CHANGE.name)) {
+        return refuse("is there twice, or beside another thermostat, and both would regulate the same particles: remove one of them");
+    }
+    if problem.has_inactive {
+        return refuse("regulates the same particles all the time: leave out emitters and drains");
+    }
+    if !problem.network.rods.is_empty() {
+        return refuse("counts three degrees of freedom of a particle, and rods take some of them: leave out the rods");
+    }
+    let free = (0..problem.capacity as usize).filter(|id| !problem.is_held(*id)).count();
+    let freedoms = free as f64 * f64::from(problem.bounds.dimensions) - removed;
+    if freedoms <= 0.0 {
+        return Err(Error::Scene(format!(
+            "{name} has no degree of freedom to regulate: {free} particles are free, in {} dimensions, less {} that are removed",
+            problem.bounds.dimensions, removed
+        )));
+    }
+    Ok(())
+}
+
+/// Kernels of the sum of m v², and of how many particles have it.
+pub(super) fn measured(problem: &Problem) -> Result<Vec<Kernel>, Error> {
+    let (field, total): (Name, Name) = (KINETIC.name.into(), TOTAL.name.into());
+    let mut sum = reduce(Operation::Sum, Items::Vec4, &field, &total, problem.capacity, &problem.machine)?;
+    sum.name = "thermostat total".into();
+    Ok(vec![kinetic(problem)?, sum])
+}
+
 /// A kernel of one invocation for each particle, with the information which ones are free.
 fn each(name: &str, file: Source, problem: &Problem, reference: Reference) -> Result<Kernel, Error> {
     let (holding, tables) = problem.holding();
@@ -135,7 +147,8 @@ fn kinetic(problem: &Problem) -> Result<Kernel, Error> {
     each("thermostat kinetic", crate::shader!("updaters/nose_hoover_kinetic.wgsl"), problem, Arc::new(reference))
 }
 
-fn scale(problem: &Problem) -> Result<Kernel, Error> {
+/// Changes velocities by a part.
+pub(super) fn scale(problem: &Problem) -> Result<Kernel, Error> {
     let of = problem.clone();
     let reference = move |host: &Host| {
         let (change, position) = (host.read(CHANGE)?[0], host.read(POSITION)?);
@@ -163,7 +176,7 @@ impl Component for NoseHoover {
     }
     fn stage(&self, stage: Stage, plan: &mut Plan, problem: &Problem) -> Result<(), Error> {
         if matches!(stage, Stage::StartOfStep | Stage::EndOfStep) {
-            self.fits(plan, problem)?;
+            serves("nose_hoover", self.removed, plan, problem)?;
             self.part(0.5, problem)?.into_iter().for_each(|kernel| plan.add(kernel));
         }
         Ok(())

@@ -3,7 +3,7 @@
 
 use glam::{DVec3, Vec4};
 use motes::forces::{Component, Problem, Stage as Of};
-use motes::kernel::{Array, Backend, Columns, Kernel, Machine, POSITION, Plan};
+use motes::kernel::{Array, Backend, Columns, Kernel, Machine, POSITION, Plan, World};
 use motes::motion::{Held, Hold};
 use motes::settings::{Settings, Value};
 use motes::{Bounds, Gpu, Setup, Simulation, Solver};
@@ -19,6 +19,23 @@ const ALWAYS_SET: &str = "the host sets every override";
 const EDGE: &str = "no pair lies exactly at the edge";
 
 pub const EQUIVALENT: &[Equivalent] = &[
+    same("langevin.wgsl", "override TEMPERATURE: f32 = 1.0;", "1.0", "1.5", ALWAYS_SET),
+    same("langevin.wgsl", "override FRICTION: f32 = 1.0;", "1.0", "1.5", ALWAYS_SET),
+    same("andersen.wgsl", "override TEMPERATURE: f32 = 1.0;", "1.0", "1.5", ALWAYS_SET),
+    same("andersen.wgsl", "override RATE: f32 = 1.0;", "1.0", "1.5", ALWAYS_SET),
+    same("langevin.wgsl", "override SEED_LOW: u32 = 1u;", "1u", "2u", ALWAYS_SET),
+    same("langevin.wgsl", "override SEED_HIGH: u32 = 0u;", "0u", "1u", ALWAYS_SET),
+    same("andersen.wgsl", "override SEED_LOW: u32 = 1u;", "1u", "2u", ALWAYS_SET),
+    same("andersen.wgsl", "override SEED_HIGH: u32 = 0u;", "0u", "1u", ALWAYS_SET),
+    same("andersen.wgsl", "let collides = fraction(", "<", "<=", "no number is exactly the probability"),
+    same("normals.wgsl", "let uniform_numbers = ", "0.5", "0.75", "a quarter of 2^-24 is nothing to a logarithm"),
+    same("normals.wgsl", "let angle = TAU", "-", "+", "a turn more is the same angle"),
+    same("decayed.wgsl", "if x > 0.5", ">", ">=", "both formulas hold there"),
+    same("decayed.wgsl", "if x > 0.5", "0.5", "0.75", "both formulas hold between"),
+    same("berendsen.wgsl", "override DIMENSIONS: f32 = 3.0;", "3.0", "4.5", ALWAYS_SET),
+    same("berendsen.wgsl", "override REMOVED: f32 = 0.0;", "0.0", "1.0", ALWAYS_SET),
+    same("berendsen.wgsl", "override TEMPERATURE: f32 = 1.0;", "1.0", "1.5", ALWAYS_SET),
+    same("berendsen.wgsl", "override TIME: f32 = 1.0;", "1.0", "1.5", ALWAYS_SET),
     same("nose_hoover.wgsl", "override DIMENSIONS: f32 = 3.0;", "3.0", "4.5", ALWAYS_SET),
     same("nose_hoover.wgsl", "override REMOVED: f32 = 0.0;", "0.0", "1.0", ALWAYS_SET),
     same("nose_hoover.wgsl", "override TEMPERATURE: f32 = 1.0;", "1.0", "1.5", ALWAYS_SET),
@@ -156,9 +173,60 @@ fn thermostat_at(device: &Device, kernel: &Kernel, total: [f32; 4]) -> Stage {
     Stage::of("thermostat", simulation, plan)
 }
 
+/// Baths of single particles, some of which are fixed and one has no mass, in space and in the plane.
+fn baths(device: &Device, stages: &mut Vec<Stage>) {
+    let held = [3, 64, 130].map(|id| Held { id, by: Hold::Fixed });
+    for (name, key) in [("langevin", "friction"), ("andersen", "rate")] {
+        for (rate, dimensions, held) in [(3.0, 3, &held[..]), (25.0, 2, &[]), (3.0, 2, &[])] {
+            let settings = [("temperature", number(0.7)), (key, number(rate)), ("seed", number(12_884_901_895.0))];
+            let problem = Problem::new(few(), Machine::HOST).tied(&motes::links::Links::default(), held);
+            let mut plan = Plan::default();
+            force(name, &settings).stage(Of::EndOfStep, &mut plan, &problem).expect("an end");
+            let kernel = plan.kernels.swap_remove(0);
+            let mut simulation = moving(device, FEW, None);
+            let mut places = pollster::block_on(simulation.read(POSITION)).expect("places");
+            places[13].w = 0.0;
+            simulation.write(POSITION, &places).expect("places");
+            let plan = alone(kernel);
+            fill(&mut simulation, &plan);
+            let gpu = simulation.backend();
+            let world = pollster::block_on(gpu.world()).expect("a clock");
+            let bounds = Bounds { dimensions, ..world.bounds };
+            gpu.set_world(World { dt: 0.1, step: 7, bounds, ..world }).expect("a clock");
+            stages.push(Stage::of(name, simulation, plan));
+        }
+    }
+}
+
+/// A thermostat that relaxes, at totals of many degrees of freedom, of none, and at rest.
+fn relaxation(device: &Device, stages: &mut Vec<Stage>) {
+    for time in [0.03, 0.0004] {
+        let settings = [("temperature", number(0.7)), ("time", number(time)), ("removed", number(6.0))];
+        let thermostat: Box<dyn Component> = force("berendsen", &settings);
+        let problem =
+            Problem::new(few(), Machine::HOST).of_columns(Columns::with(thermostat.columns()).expect("columns"));
+        let mut plan = Plan::default();
+        thermostat.stage(Of::EndOfStep, &mut plan, &problem).expect("an end");
+        for kernel in plan.kernels.into_iter().filter(|kernel| kernel.names("thermostat_heat")) {
+            for total in [
+                [150.0_f32, 60.0, 0.0, 0.0],
+                [0.0, 60.0, 0.0, 0.0],
+                [0.5, 60.0, 0.0, 0.0],
+                [3.0, 2.25, 0.0, 0.0],
+                [3.0, 2.0, 0.0, 0.0],
+                [3.0, 1.0, 0.0, 0.0],
+            ] {
+                stages.push(thermostat_at(device, &kernel, total));
+            }
+        }
+    }
+}
+
 pub fn all(shared: &Shared, device: &Device, stages: &mut Vec<Stage>) {
     choices::ATOMS.into_iter().for_each(|name| atoms(name, device, stages));
     // A list of neighbours has more layers than few workgroups allow.
     grains(&pollster::block_on(support::limited(shared, |_| {})), stages);
     thermostats(device, stages);
+    baths(device, stages);
+    relaxation(device, stages);
 }

@@ -13,7 +13,7 @@ const OWN: [&str; 1] = ["fluid"];
 
 /// Forces that want other states than a cloud of points: atoms apart, spheres that touch. `tests/physics/matter`,
 /// `tests/physics/molecular` and `tests/mutants/matter.rs` have these.
-const STATED: [&str; 2] = ["contact", "nose_hoover"];
+const STATED: [&str; 5] = ["contact", "nose_hoover", "langevin", "andersen", "berendsen"];
 
 /// Laws of atoms that have no centre at one place.
 pub const ATOMS: [&str; 6] = ["born_mayer", "lennard_jones", "wca", "morse", "yukawa", "soft"];

@@ -47,7 +47,7 @@ fn setup(state: State, forces: Vec<Box<dyn Component>>, bounds: Bounds, dt: f64)
     Setup { state, forces, integrator: integrator("leapfrog"), dt, bounds, solver: Solver::default() }
 }
 
-fn on_cpu(setup: &Setup) -> Simulation<Cpu> {
+pub fn on_cpu(setup: &Setup) -> Simulation<Cpu> {
     Simulation::on(Cpu::new(setup.check().expect("a setup")).expect("some"), setup).expect("a simulation")
 }
 
