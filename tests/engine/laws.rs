@@ -135,7 +135,9 @@ fn other_species(value: &Value) -> Value {
 fn every_key_is_read() {
     for entry in choices::lawful() {
         let variants = choices::variants(entry.keys);
-        let world = World { time: TIME, dt: 0.01, ..World::default() };
+        // Collisions with a bath are rare in a short step.
+        let dt = if entry.name == "andersen" { 1.0 } else { 0.01 };
+        let world = World { time: TIME, dt, ..World::default() };
         let cloud = crate::support::cloud(100, 3);
         // Some with accelerations of a step before, and some without: by them, or by angles alone, a tree decides what is far.
         let before: Vec<_> = cloud.position().iter().map(|x| DVec4::X * if x.x > 0.0 { 0.3 } else { 0.0 }).collect();
