@@ -22,6 +22,7 @@ mod solves;
 mod spawn;
 mod ties;
 mod unwritten;
+mod virial;
 
 pub use adaptive_step::Clock;
 pub use inactive::serves;

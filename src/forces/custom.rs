@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::{Change, Component, Distant, Law, Over};
+use super::{Change, Component, Law, Over};
 use crate::error::Error;
 use crate::kernel::{ACCELERATION, Name, Scalar, Source, Table};
 use crate::settings::{Value, unknown};
@@ -93,21 +93,10 @@ impl Component for Custom {
         }))
     }
     fn laws(&self) -> Vec<Law> {
-        vec![Law {
-            name: self.name.clone(),
-            over: self.over,
-            wgsl: Source::law(self.file.clone(), self.wgsl.clone()),
-            params: self.params.iter().map(|(name, value)| (name.clone(), scalar(value))).collect(),
-            pairs: self.pairs.clone(),
-            tables: self.tables.clone(),
-            into: self.into.clone(),
-            reference: None,
-            reciprocal: false,
-            jacobian: None,
-            distant: Distant::default(),
-            tied: None,
-            search: None,
-        }]
+        let params = self.params.iter().map(|(name, value)| (name.clone(), scalar(value))).collect();
+        let law = Law::own(&self.name, self.over, Source::law(self.file.clone(), self.wgsl.clone()), params);
+        let (pairs, tables, into) = (self.pairs.clone(), self.tables.clone(), self.into.clone());
+        vec![Law { pairs, tables, into, ..law }]
     }
 }
 

@@ -61,6 +61,18 @@ impl Source {
     pub(super) fn written(&self, compiled: usize) -> usize {
         if self.ours { compiled } else { written(&self.text, compiled) }
     }
+    /// The same file, in which a name is another.
+    #[must_use]
+    pub fn renamed(&self, from: &str, to: &str) -> Self {
+        let (mut text, mut end) = (String::new(), 0);
+        for token in own::tokens(&self.text).into_iter().filter(|token| token.text == from) {
+            text.push_str(&self.text[end..token.at]);
+            text.push_str(to);
+            end = token.end();
+        }
+        text.push_str(&self.text[end..]);
+        Self { text: Cow::Owned(text), ..self.clone() }
+    }
     /// Whether the text, comments left out, contains these words in this order with only white space between.
     #[must_use]
     pub fn says(&self, words: &[&str]) -> bool {

@@ -8,6 +8,7 @@ pub use energy::{Energies, Energy};
 pub use flock::{Flock, Flocks};
 pub use fluid::{Book, Ledger};
 pub use population::Counts;
+pub use pressure::Pressures;
 pub use series::{Cell, Moment, Row, Series};
 pub use thermo::Thermo;
 
@@ -72,6 +73,7 @@ register! {
     fluid
     population
     thermo
+    pressure
     rdf
     probe
 }

@@ -20,6 +20,8 @@ pub struct Moment<'a> {
     pub clock: Option<&'a Clock>,
     /// The remaining links, where they may break.
     pub links: Option<&'a Links>,
+    /// The virial −½ Σ r ⊗ F of forces of pairs, where the measure `pressure` is taken: xx, yy, zz, yz, xz, xy \[energy\].
+    pub virial: Option<[f64; 6]>,
 }
 
 /// A measure in the course of a run.

@@ -6,6 +6,7 @@ use super::series::number;
 use super::{Measure, Moment, Row, Series};
 use crate::error::Error;
 use crate::settings::{Key, Kind, Value};
+use crate::state::State;
 
 /// `thermo.csv`.
 pub const MEASURE: Measure = Measure {
@@ -29,16 +30,32 @@ pub const MEASURE: Measure = Measure {
     ],
     usual: |_| Ok(None),
     begin: |setup, settings| {
-        let mut held = vec![false; setup.state.len()];
-        for one in &setup.state.held {
-            if let Some(held) = held.get_mut(one.id as usize) {
-                *held = true;
-            }
-        }
+        let held = held(&setup.state);
         let (boltzmann, drift) = (settings.number("boltzmann"), settings.flag("drift"));
         Ok(Box::new(Thermo { held, boltzmann, drift, dimensions: setup.bounds.dimensions, ends: None }))
     },
 };
+
+/// Whether each particle is fixed.
+pub(super) fn held(state: &State) -> Vec<bool> {
+    let mut held = vec![false; state.len()];
+    for one in &state.held {
+        if let Some(held) = held.get_mut(one.id as usize) {
+            *held = true;
+        }
+    }
+    held
+}
+
+/// The particles that move by forces, and the mean velocity of their mass.
+pub(super) fn moving(state: &State, held: &[bool]) -> (Vec<usize>, DVec3) {
+    let moves = |i: &usize| state.is_active(*i) && !held.get(*i).copied().unwrap_or(false) && state.mass()[*i] > 0.0;
+    let all: Vec<usize> = (0..state.len()).filter(moves).collect();
+    let mass: f64 = all.iter().map(|i| state.mass()[*i]).sum();
+    let momentum: DVec3 = all.iter().map(|i| state.mass()[*i] * state.velocity()[*i]).sum();
+    let mean = if mass > 0.0 { momentum / mass } else { DVec3::ZERO };
+    (all, mean)
+}
 
 /// Temperatures of a run.
 #[derive(Debug)]
@@ -64,11 +81,8 @@ impl Thermo {
 impl Series for Thermo {
     fn take(&mut self, moment: &Moment<'_>) -> Result<Vec<Row>, Error> {
         let (state, energies) = (moment.state, moment.state.energies()?);
-        let moves = |i: &usize| state.is_active(*i) && !self.held.get(*i).copied().unwrap_or(false) && state.mass()[*i] > 0.0;
-        let all: Vec<usize> = (0..state.len()).filter(moves).collect();
-        let mass: f64 = all.iter().map(|i| state.mass()[*i]).sum();
-        let momentum: DVec3 = all.iter().map(|i| state.mass()[*i] * state.velocity()[*i]).sum();
-        let mean = if self.drift || mass <= 0.0 { DVec3::ZERO } else { momentum / mass };
+        let (all, mean) = moving(state, &self.held);
+        let mean = if self.drift { DVec3::ZERO } else { mean };
         let heat: f64 =
             all.iter().map(|i| 0.5 * state.mass()[*i] * (state.velocity()[*i] - mean).length_squared()).sum();
         let potential: f64 = all.iter().map(|i| energies[*i]).sum();

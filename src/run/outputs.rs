@@ -11,7 +11,7 @@ use super::table::Table;
 use super::writer::Writer;
 use crate::error::Error;
 use crate::kernel::Backend;
-use crate::measure::{Book, Energies, Energy, Moment, Series};
+use crate::measure::{Book, Energies, Energy, Moment, Pressures, Series};
 use crate::simulation::Simulation;
 use crate::sph::DENSITY;
 use crate::state::State;
@@ -28,7 +28,9 @@ impl Run {
         let wanted: Vec<&str> = columns.iter().map(String::as_str).collect();
         let mut state = Arc::new(simulation.snapshot_of(&wanted).await?);
         let (links, density) = (simulation.torn().await?, self.density(simulation).await?);
-        let moment = Moment { state: &state, density: &density, clock: course.clock(), links: links.as_ref() };
+        let virial = self.virial(simulation, |one| one.is_due(course.done(), true) || one.each_step).await?;
+        let clock = course.clock();
+        let moment = Moment { state: &state, density: &density, clock, links: links.as_ref(), virial };
         self.measure(&moment, |one| one.is_due(course.done(), true) || one.each_step, progress)?;
         for table in self.tables() {
             table.settle_later(&self.stream)?;
@@ -43,7 +45,7 @@ impl Run {
         if self.energies().len() == 1 {
             self.states.left_out(&state).iter().for_each(|text| progress.remark(text));
         }
-        let moment = Moment { state: &state, density: &density, clock: course.clock(), links: links.as_ref() };
+        let moment = Moment { state: &state, density: &density, clock, links: links.as_ref(), virial };
         for number in 0..self.all().len() {
             let writer = &mut self.all()[number];
             writer.take(&moment)?;
@@ -68,7 +70,8 @@ impl Run {
         progress: &mut dyn Progress,
     ) -> Result<(), Error> {
         let (state, density) = (Arc::new(simulation.snapshot().await?), self.density(simulation).await?);
-        let moment = Moment { state: &state, density: &density, clock: course.clock(), links: None };
+        let virial = self.virial(simulation, |one| one.is_due(course.done(), false) || one.each_step).await?;
+        let moment = Moment { state: &state, density: &density, clock: course.clock(), links: None, virial };
         self.measure(&moment, |one| one.is_due(course.done(), false) || one.each_step, progress)?;
         self.look(state, course, progress)
     }
@@ -107,6 +110,15 @@ impl Run {
     }
     async fn density<B: Backend>(&self, simulation: &mut Simulation<B>) -> Result<Vec<f32>, Error> {
         if self.series::<Book>().is_some() { simulation.read(DENSITY).await } else { Ok(Vec::new()) }
+    }
+    /// The virial, where it is measured now.
+    async fn virial<B: Backend>(
+        &self,
+        simulation: &mut Simulation<B>,
+        is_due: impl Fn(&Measured) -> bool,
+    ) -> Result<Option<[f64; 6]>, Error> {
+        let asks = |one: &&Measured| is_due(one) && (&*one.series as &dyn Any).is::<Pressures>();
+        if self.measures.iter().any(|one| asks(&one)) { simulation.virial().await.map(Some) } else { Ok(None) }
     }
     /// The series of that type, if the run has such a measure: `run.series::<Flocks>()`; the first, if there are several.
     #[must_use]

@@ -7,7 +7,7 @@ use glam::{DVec3, DVec4};
 use super::reference::{ByTables, Sample};
 use super::{
     Group, Jacobian, Memory, Outcome, Over, PAIR_TABLE, PairTable, Particle, Search, Tables, each, links, list, near,
-    pairs, reference, tree, walk,
+    pairs, reference, tree, virial, walk,
 };
 use crate::error::Error;
 use crate::kernel::{
@@ -49,6 +49,10 @@ pub struct Law {
     pub tied: Option<ByTables>,
     /// Over `near`: its search, if it needs more than a range.
     pub search: Option<Search>,
+    /// Files beside its own, which have the functions that its visit calls.
+    pub beside: Vec<Source>,
+    /// The reference of the virial of its pairs; `None` where there is none.
+    pub virial: Option<Reference>,
 }
 
 /// A law's approximation of a far group.
@@ -64,23 +68,15 @@ pub struct Distant {
     pub images: bool,
 }
 
-/// Files that are joined with a law that calls a function of theirs and does not define it.
-const ON_CALL: [(&str, Source); 9] = [
-    ("is_of", crate::shader!("law/species.wgsl")),
-    ("unit", crate::shader!("law/steering.wgsl")),
-    ("truncated", crate::shader!("law/steering.wgsl")),
-    ("signed_distance", crate::shader!("solids/distance.wgsl")),
-    ("pcg4d", crate::shader!("law/random.wgsl")),
-    ("fraction", crate::shader!("law/random.wgsl")),
-    ("circle", crate::shader!("law/circle.wgsl")),
-    ("pair_index", crate::shader!("law/pair_index.wgsl")),
-    ("ended", crate::shader!("law/truncation.wgsl")),
-];
-
 impl Law {
     /// A law with only its WGSL and its reference, which computes an acceleration.
     #[must_use]
     pub fn plain(name: &str, over: Over, wgsl: Source, params: Vec<(String, Scalar)>, reference: Reference) -> Self {
+        Self { reference: Some(reference), ..Self::own(name, over, wgsl, params) }
+    }
+    /// The same without a reference, as a user's law is.
+    #[must_use]
+    pub fn own(name: &str, over: Over, wgsl: Source, params: Vec<(String, Scalar)>) -> Self {
         Self {
             name: name.to_owned(),
             over,
@@ -89,12 +85,14 @@ impl Law {
             pairs: None,
             tables: Vec::new(),
             into: vec![ACCELERATION.name.into()],
-            reference: Some(reference),
+            reference: None,
             reciprocal: false,
             jacobian: None,
             distant: Distant::default(),
             tied: None,
             search: None,
+            beside: Vec::new(),
+            virial: None,
         }
     }
     /// A law of each particle alone; `rule(me, world)` returns acceleration and potential per unit mass.
@@ -142,8 +140,12 @@ impl Law {
         let rule = Arc::new(rule);
         let (wgsl, distant) = files;
         let (every, sample) = (rule.clone(), Some(reference::sample(rule.clone())));
+        let pair = every.clone();
         let gather =
             move |me: &Particle, you: &Particle, r, world: &World, sum: &mut DVec4| *sum += every(me, you, r, world);
+        let each =
+            move |me: &Particle, you: &Particle, r, world: &World, sum: &mut DVec4| *sum += pair(me, you, r, world);
+        let virial = Some(virial::reference(over, each, |_, sum: &DVec4, _| *sum));
         let walk = match over {
             Over::Tree { opening, core, .. } => Some(walk::reference(opening, core, rule, far)),
             _ => None,
@@ -152,6 +154,7 @@ impl Law {
         Self {
             reciprocal: true,
             distant: Distant { wgsl: distant, walk, sample, images: false },
+            virial,
             ..Self::plain(name, over, wgsl, params, reference)
         }
     }
@@ -165,8 +168,14 @@ impl Law {
         gather: impl Fn(&Particle, &Particle, DVec3, &mut S) + Send + Sync + 'static,
         finish: impl Fn(&Particle, &S, &World) -> DVec4 + Send + Sync + 'static,
     ) -> Self {
+        let (gather, finish) = (Arc::new(gather), Arc::new(finish));
+        let (each, end) = (gather.clone(), finish.clone());
         let gather = move |me: &Particle, you: &Particle, r, _: &World, sum: &mut S| gather(me, you, r, sum);
-        Self::plain(name, over, wgsl, params, reference::gathering(over, gather, finish))
+        let finish = move |me: &Particle, sum: &S, world: &World| finish(me, sum, world);
+        let each = move |me: &Particle, you: &Particle, r, _: &World, sum: &mut S| each(me, you, r, sum);
+        let end = move |me: &Particle, sum: &S, world: &World| end(me, sum, world);
+        let virial = Some(virial::reference(over, each, end));
+        Self { virial, ..Self::plain(name, over, wgsl, params, reference::gathering(over, gather, finish)) }
     }
     /// The same for a law that writes columns: `finish(me, sum, world, outcome)` sets their values. `into` names all that it writes,
     /// including `acceleration` if it computes one.
@@ -247,7 +256,7 @@ impl Law {
         law.check_columns(&mut kernel, problem)?;
         Ok(kernel)
     }
-    fn visiting(self, problem: &Problem) -> Result<Kernel, Error> {
+    pub(super) fn visiting(self, problem: &Problem) -> Result<Kernel, Error> {
         match self.chosen(problem) {
             Over::Each => each::kernel(self, problem),
             Over::Pairs | Over::Within { .. } => pairs::kernel(self, problem),
@@ -328,18 +337,10 @@ impl Law {
         };
         ("finish", text)
     }
-    /// The file that stores its result.
-    pub(super) fn result(&self) -> Source {
-        match (self.accelerates(), self.over) {
-            (false, _) => crate::shader!("slots/result/columns.wgsl"),
-            (true, Over::Links) => crate::shader!("slots/result/first.wgsl"),
-            (true, _) => crate::shader!("slots/result/added.wgsl"),
-        }
-    }
     /// Checks the functions of a law over any visit but `each`.
     pub(super) fn requires_gather(&self) -> Result<(), Error> {
         // Laws of a method have these functions in several files.
-        if self.search.is_some() {
+        if self.search.is_some() || !self.beside.is_empty() {
             return Ok(());
         }
         self.requires(&[
@@ -350,7 +351,7 @@ impl Law {
         self.agrees("fn merge(total: ptr<function, Sum>, part: Sum)")
     }
     /// The tables that its WGSL binds, of pairs of species and of data.
-    fn bind_tables(&self, kernel: &mut Kernel, problem: &Problem) -> Result<(), Error> {
+    pub(super) fn bind_tables(&self, kernel: &mut Kernel, problem: &Problem) -> Result<(), Error> {
         let passes = kernel.passes.clone();
         let binding = |name: &str| {
             let mut all = passes.iter().flat_map(|pass| &pass.shader.reflection().bindings);
@@ -471,27 +472,5 @@ impl Law {
     fn agrees(&self, signature: &str) -> Result<(), Error> {
         let wrong = self.wgsl.law.then(|| self.wgsl.mismatch(signature)).flatten();
         wrong.map_or(Ok(()), |message| Err(Error::Shader { message }))
-    }
-    /// The default `acts_on`, which includes all particles, for a law without one of its own.
-    pub(super) fn choice(&self) -> Option<Source> {
-        (!self.says(&["fn", "acts_on", "("])).then_some(crate::shader!("visit/acts_on_all.wgsl"))
-    }
-    /// The law's own file and those that it relies on: a sum of accelerations, unless it has one, and the functions that it calls.
-    pub(super) fn files(&self, problem: &Problem) -> Vec<Source> {
-        let mut files = vec![self.turns()];
-        if self.over != Over::Each && !self.says(&["struct", "Sum", "{"]) {
-            files.push(crate::shader!("visit/sum.wgsl"));
-        }
-        for (function, file) in ON_CALL {
-            let called = self.wgsl.says(&[function, "("]) && !self.wgsl.says(&["fn", function, "("]);
-            if called && !files.contains(&file) {
-                files.push(file);
-            }
-        }
-        if self.wgsl.says(&["id_of", "("]) && !self.wgsl.says(&["fn", "id_of", "("]) {
-            files.push(problem.naming());
-        }
-        files.push(self.wgsl.clone());
-        files
     }
 }

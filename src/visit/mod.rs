@@ -1,6 +1,7 @@
 //! Visits: which pairs are evaluated. A law defines the interaction; a visit defines the pairs, and joins the law's WGSL with its own.
 
 mod each;
+mod files;
 mod jacobian;
 mod law;
 mod links;
@@ -17,6 +18,7 @@ mod search;
 mod tied;
 mod tree;
 mod turns;
+mod virial;
 mod walk;
 
 pub use jacobian::{Jacobian, ROW, ROWS};
@@ -33,4 +35,5 @@ pub use search::Search;
 pub use tied::Tables;
 pub(crate) use tied::Tied;
 pub use tree::crossing;
+pub use virial::{VIRIAL, clear as clear_virial, no_virial};
 pub use walk::Group;

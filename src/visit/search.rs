@@ -44,7 +44,7 @@ impl Law {
     }
     /// Whether its WGSL, or a file beside it, contains these words in a row.
     pub(super) fn says(&self, words: &[&str]) -> bool {
-        let beside = self.search.iter().flat_map(|search| &search.files);
+        let beside = self.search.iter().flat_map(|search| &search.files).chain(&self.beside);
         std::iter::once(&self.wgsl).chain(beside).any(|file| file.says(words))
     }
 }

@@ -24,6 +24,9 @@ fn setup(state: &State, bounds: Bounds) -> Setup {
     }
 }
 
+/// A virial.
+const VIRIAL: [f64; 6] = [0.5, 0.25, -2.0, 4.0, -0.125, 1.0];
+
 /// The rows of a measure of a state, whose potential energies are 0.
 fn rows(name: &str, state: &State, bounds: Bounds, sets: &[(&'static str, Value)]) -> Result<Vec<Row>, Error> {
     let measure = measure(name).expect("a measure");
@@ -34,7 +37,7 @@ fn rows(name: &str, state: &State, bounds: Bounds, sets: &[(&'static str, Value)
     state.declare(&potential).expect("a column");
     state.set("potential", Array::Float(vec![0.0; state.len()])).expect("a column");
     let mut series = (measure.begin)(&setup(&state, bounds), &settings)?;
-    let moment = Moment { state: &Arc::new(state), density: &[], clock: None, links: None };
+    let moment = Moment { state: &Arc::new(state), density: &[], clock: None, links: None, virial: Some(VIRIAL) };
     series.take(&moment)
 }
 
@@ -188,6 +191,32 @@ fn temperature_is_the_mean_kinetic_energy() {
     assert_eq!(of(&[("boltzmann", Value::Number(0.5))])[1], 6.0);
     // ½ (6 + 30) = 18, of six.
     assert_eq!(of(&[("drift", Value::Flag(true))]), [2.0, 6.0, 9.0]);
+}
+
+/// (Σ m v ⊗ v + W) / V, relative to the centre of mass.
+#[test]
+fn pressure_has_a_kinetic_part_and_a_virial() {
+    let mut state = State::default();
+    for (v, mass) in
+        [(DVec3::new(1.0, 2.0, -1.0), 1.0), (DVec3::new(3.0, 0.0, 1.0), 3.0), (DVec3::new(9.0, 9.0, 9.0), 5.0)]
+    {
+        state.push(DVec3::ONE, v, mass, 0.0);
+    }
+    state.held.push(motes::motion::Held { id: 2, by: motes::motion::Hold::Fixed });
+    let of = |state: &State, bounds: Bounds| {
+        rows("pressure", state, bounds, &[]).map(|rows| (0..8).map(|cell| numbers(&rows, cell)[0]).collect::<Vec<_>>())
+    };
+    // Velocities are (−1.5, 1.5, −1.5) and (0.5, −0.5, 0.5) there: 3 along each axis, with signs. The volume is 32.
+    let parts = [3.5, 3.25, 1.0, 1.0, 2.875, -2.0].map(|part| part / 32.0);
+    let want = [&[7.75 / 96.0, 3.0 / 32.0], &parts[..]].concat();
+    assert_eq!(of(&state, periodic(DVec3::new(2.0, 4.0, 4.0))).expect("rows"), want);
+    assert!(of(&state, Bounds::default()).is_err_and(|why| why.to_string().contains("this box is open")));
+    // In the plane there is an area, and two axes.
+    let flat = Bounds { dimensions: 2, ..Bounds::new(DVec3::ZERO, DVec3::new(2.0, 4.0, 0.0), Side::Reflecting) };
+    state.position_mut().iter_mut().for_each(|x| x.z = 0.0);
+    state.velocity_mut().iter_mut().for_each(|v| v.z = 0.0);
+    let rows = of(&state, flat).expect("rows");
+    assert_eq!(rows[..4], [6.75 / 16.0, 3.0 / 8.0, 3.5 / 8.0, 3.25 / 8.0]);
 }
 
 /// Velocities that grow along y, on a lattice: a probe amid eight particles has their mean.

@@ -19,6 +19,20 @@ const ALWAYS_SET: &str = "the host sets every override";
 const EDGE: &str = "no pair lies exactly at the edge";
 
 pub const EQUIVALENT: &[Equivalent] = &[
+    same(
+        "virial.wgsl",
+        "let force = me.mass * (pair_finish(me, pair)",
+        "-",
+        "+",
+        "the force of no neighbours is none here",
+    ),
+    same(
+        "virial.wgsl",
+        "let force = me.mass * (pair_finish(me, sum.whole)",
+        "-",
+        "+",
+        "the force of no neighbours is none here",
+    ),
     same("langevin.wgsl", "override TEMPERATURE: f32 = 1.0;", "1.0", "1.5", ALWAYS_SET),
     same("langevin.wgsl", "override FRICTION: f32 = 1.0;", "1.0", "1.5", ALWAYS_SET),
     same("andersen.wgsl", "override TEMPERATURE: f32 = 1.0;", "1.0", "1.5", ALWAYS_SET),
@@ -77,7 +91,15 @@ fn atoms(name: &'static str, device: &Device, stages: &mut Vec<Stage>) {
         }
         simulation.write(POSITION, &now).expect("places");
         let problem = Problem::new(few(), Machine::HOST).of_species(&support::species(FEW));
+        let virial = law.virial(&problem).expect("a virial");
         stages.push(stage(name, simulation, law.kernel(&problem).expect("a kernel")));
+        if name == "soft" && stages.iter().all(|stage| stage.name != "virial") {
+            let mut simulation = resting(device, Machine::HOST, Bounds::default());
+            simulation.write(POSITION, &now).expect("places");
+            stages.push(stage("virial", simulation, virial.expect("pairs")));
+            let simulation = resting(device, Machine::HOST, Bounds::default());
+            stages.push(stage("virial clear", simulation, motes::visit::clear_virial(&problem).expect("a kernel")));
+        }
     }
 }
 

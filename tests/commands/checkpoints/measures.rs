@@ -12,6 +12,7 @@ const SCENE: &str =
 [[particles]]\nshape = \"box\"\ncount = 60\nseed = 5\nsize = [2, 2, 2]\n
 [[force]]\nkind = \"gravity\"\nsoftening = 0.1\n
 [[measure]]\nkind = \"thermo\"\nevery = 3\n
+[[measure]]\nkind = \"pressure\"\nevery = 6\n
 [[measure]]\nkind = \"rdf\"\nrange = 0.8\nbins = 4\n
 [[measure]]\nkind = \"rdf\"\nrange = 0.5\nbins = 2\nevery = \"0.05 time\"\n
 [[measure]]\nkind = \"probe\"\nstart = [0, 0, 0]\nrange = 0.5\n
@@ -22,7 +23,7 @@ fn tables_have_their_rows_and_go_on_where_a_run_was_stopped() {
     let place = Place::with(&[("box.toml", SCENE)]);
     let (code, words) = place.run("box.toml", "out", &[]);
     assert_eq!(code, 0, "{words}");
-    assert!(words.contains("energy.csv, thermo.csv, rdf.csv, rdf_2.csv, probe.csv"), "{words}");
+    assert!(words.contains("energy.csv, thermo.csv, pressure.csv, rdf.csv, rdf_2.csv, probe.csv"), "{words}");
     assert!(words.contains("temperature "), "{words}");
     let files = all(&place.at("out"));
     let steps = |name: &str| -> Vec<u64> {
@@ -31,6 +32,7 @@ fn tables_have_their_rows_and_go_on_where_a_run_was_stopped() {
     };
     assert_eq!(steps("thermo.csv"), [0, 3, 6, 9, 12, 15, 18, 21, 24]);
     assert_eq!(steps("probe.csv"), [0, 8, 16, 24]);
+    assert_eq!(steps("pressure.csv"), [0, 6, 12, 18, 24]);
     assert_eq!(steps("rdf.csv"), [0, 8, 16, 24].map(|step| [step; 4]).concat());
     // Energies are looked at between outputs, whether something else is measured there or not: at 20 steps, here.
     assert!(words.contains("in 5 measurements"), "{words}");

@@ -52,13 +52,15 @@ fn drawn(seed: i32, place: DVec3) -> DVec3 {
     DVec3::new(x, y, next())
 }
 
-/// The potential energy of an atom, and the temperature.
-fn measured<B: Backend>(simulation: &mut Simulation<B>) -> [f64; 2] {
+/// The potential energy of an atom, the temperature, and the pressure.
+fn measured<B: Backend>(simulation: &mut Simulation<B>) -> [f64; 3] {
     let state = block_on(simulation.snapshot()).expect("a state");
     let count = state.len() as f64;
     let potential: f64 = state.scalar("potential").expect("a column").iter().sum();
     let twice: f64 = state.velocity().iter().map(|v| v.length_squared()).sum();
-    [potential / count, twice / (3.0 * count - 3.0)]
+    let virial = block_on(simulation.virial()).expect("a virial");
+    let volume = (f64::from(CELLS) * edge()).powi(3);
+    [potential / count, twice / (3.0 * count - 3.0), (twice + virial[..3].iter().sum::<f64>()) / (3.0 * volume)]
 }
 
 /// What LAMMPS publishes (bench/log.15Jul25.lj.fixed.g++.1), in f64. At step 0 all but the last digits, that is 32 000 sums of f32, 1e-6.
@@ -71,11 +73,16 @@ fn the_melt_has_the_energies_of_lammps() {
     let setup: Setup = setup(start(), vec![cut(2.5, "cut", "list")], bounds, 0.005);
     let gpu = crate::support::machines::gpu(&shared, setup.state.len());
     let mut simulation = Simulation::on(gpu, &setup).expect("a simulation");
-    for (steps, potential, temperature) in [(0, -6.773_368_1, 1.44), (100, -5.758_505_5, 0.757_453_1)] {
+    for (steps, potential, temperature, pressure) in
+        [(0, -6.773_368_1, 1.44, -5.019_707_3), (100, -5.758_505_5, 0.757_453_1, 0.207_261_05)]
+    {
         simulation.step(steps).expect("steps");
-        let [is, heat] = measured(&mut simulation);
+        let [is, heat, push] = measured(&mut simulation);
         let allowed = if steps == 0 { 1e-6 } else { 2e-4 };
         assert!((is / potential - 1.0).abs() < allowed, "step {steps}: {is} is not {potential}");
         assert!((heat / temperature - 1.0).abs() < allowed, "step {steps}: {heat} is not {temperature}");
+        // As the energy, and the steep part of pairs that cancels in the virial, ten times what remains.
+        let scale = if steps == 0 { 1.0 } else { 10.0 };
+        assert!((push - pressure).abs() < 10.0 * allowed * scale, "step {steps}: {push} is not {pressure}");
     }
 }

@@ -11,6 +11,7 @@ mod baths;
 mod lammps;
 mod laws;
 mod nist;
+mod pressure;
 
 use glam::DVec3;
 use motes::forces::Component;

@@ -10,7 +10,7 @@ use crate::support::states::accelerations_in;
 /// fluid reference calculations, cuboid cell).
 const CONFIGURATION: &str = include_str!("lj_sample_config_4.csv");
 
-fn atoms() -> State {
+pub fn atoms() -> State {
     let mut state = State::default();
     for line in CONFIGURATION.lines().skip(1) {
         let x: Vec<f64> = line.split(',').map(|word| word.parse().expect("a number")).collect();

@@ -1,0 +1,87 @@
+//! The virial of all forces of pairs, computed on request.
+
+use super::{Setup, Simulation};
+use crate::error::Error;
+use crate::forces::{Problem, Stage};
+use crate::kernel::{Array, Backend, Machine, Plan};
+use crate::visit::{VIRIAL, clear_virial, no_virial};
+
+/// The part of the sizes of the forces on a particle by which they may fail to add up: some hundred roundings of single precision.
+const ROUNDING: f32 = 1e-4;
+
+impl Setup {
+    /// Whether its forces have a virial: see [`Simulation::virial`].
+    ///
+    /// # Errors
+    /// [`Error::Scene`] with the force that has none.
+    pub(crate) fn has_virial(&self) -> Result<(), Error> {
+        self.virial(&self.problem(Machine::HOST)?).map(drop)
+    }
+    /// The plan that computes the virial after an evaluation.
+    fn virial(&self, problem: &Problem) -> Result<Plan, Error> {
+        if !problem.network.rods.is_empty() {
+            return Err(no_virial("rod", "constrains distances"));
+        }
+        let mut plan = Plan::default();
+        plan.add(clear_virial(problem)?);
+        for force in &self.forces {
+            let laws = force.laws();
+            let mut evaluated = Plan::default();
+            force.stage(Stage::Evaluate { earlier: 0 }, &mut evaluated, problem)?;
+            if evaluated.kernels.len() > laws.len() {
+                let name = laws.first().map_or_else(|| force.name().to_owned(), |law| law.name.clone());
+                return Err(no_virial(&name, "has more than the forces of pairs"));
+            }
+            for law in laws {
+                law.virial(problem)?.into_iter().for_each(|kernel| plan.add(kernel));
+            }
+        }
+        Ok(plan)
+    }
+}
+
+impl<B: Backend> Simulation<B> {
+    /// The virial −½ Σ r ⊗ F of all forces of pairs at the end of the last step \[energy\]: xx, yy, zz, yz, xz, xy. The force of a pair is
+    /// that of a law for one neighbour. It evaluates the forces once more, which does not change the run.
+    ///
+    /// # Errors
+    /// [`Error::Scene`] where a force is none of pairs in range, or those of pairs do not add up to the force on a particle; and those of
+    /// [`Simulation::snapshot`].
+    pub async fn virial(&mut self) -> Result<[f64; 6], Error> {
+        let plan = self.setup.virial(&self.problem)?;
+        let program = self.backend.compile(&plan)?;
+        self.settle().await?;
+        let (values, alarm) = loop {
+            let alarm = self.alarm().await?;
+            self.sound(&alarm)?;
+            self.repeatable(None)?;
+            if self.begins {
+                self.begin()?;
+            }
+            self.backend.run(&self.measure.0, 1)?;
+            self.backend.run(&program, 1)?;
+            let like = Array::Vec4(Vec::new());
+            let values = self.backend.read(VIRIAL.name, &like, 2 * self.rows.used() as usize).await;
+            let alarm = self.alarm().await?;
+            self.backend.run(&self.measure.1, 1)?;
+            if !self.settle().await? {
+                break (values, alarm);
+            }
+        };
+        self.sound(&alarm)?;
+        let Array::Vec4(values) = values? else { return Ok([0.0; 6]) };
+        let mut sum = [0.0; 6];
+        for (row, pair) in values.chunks_exact(2).enumerate() {
+            let adds_up = pair[0].w <= f64::from(ROUNDING) * pair[1].w;
+            if !adds_up {
+                return Err(Error::Scene(format!(
+                    "the forces of pairs on the particle in row {row} do not add up to its force, so that they have no virial: leave out \
+                     what measures the pressure"
+                )));
+            }
+            let parts = [pair[0].truncate().to_array(), pair[1].truncate().to_array()].concat();
+            sum.iter_mut().zip(parts).for_each(|(sum, part)| *sum += part);
+        }
+        Ok(sum)
+    }
+}

@@ -1,0 +1,51 @@
+//! The files that a law is joined with.
+
+use super::{Law, Over};
+use crate::kernel::{Problem, Source};
+
+/// Files that are joined with a law that calls a function of theirs and does not define it.
+const ON_CALL: [(&str, Source); 9] = [
+    ("is_of", crate::shader!("law/species.wgsl")),
+    ("unit", crate::shader!("law/steering.wgsl")),
+    ("truncated", crate::shader!("law/steering.wgsl")),
+    ("signed_distance", crate::shader!("solids/distance.wgsl")),
+    ("pcg4d", crate::shader!("law/random.wgsl")),
+    ("fraction", crate::shader!("law/random.wgsl")),
+    ("circle", crate::shader!("law/circle.wgsl")),
+    ("pair_index", crate::shader!("law/pair_index.wgsl")),
+    ("ended", crate::shader!("law/truncation.wgsl")),
+];
+
+impl Law {
+    /// The file that stores its result.
+    pub(super) fn result(&self) -> Source {
+        match (self.accelerates(), self.over) {
+            (false, _) => crate::shader!("slots/result/columns.wgsl"),
+            (true, Over::Links) => crate::shader!("slots/result/first.wgsl"),
+            (true, _) => crate::shader!("slots/result/added.wgsl"),
+        }
+    }
+    /// The default `acts_on`, which includes all particles, for a law without one of its own.
+    pub(super) fn choice(&self) -> Option<Source> {
+        (!self.says(&["fn", "acts_on", "("])).then_some(crate::shader!("visit/acts_on_all.wgsl"))
+    }
+    /// The law's own file and those that it relies on: a sum of accelerations, unless it has one, and the functions that it calls.
+    pub(super) fn files(&self, problem: &Problem) -> Vec<Source> {
+        let mut files = vec![self.turns()];
+        if self.over != Over::Each && !self.says(&["struct", "Sum", "{"]) {
+            files.push(crate::shader!("visit/sum.wgsl"));
+        }
+        for (function, file) in ON_CALL {
+            let called = self.wgsl.says(&[function, "("]) && !self.wgsl.says(&["fn", function, "("]);
+            if called && !files.contains(&file) {
+                files.push(file);
+            }
+        }
+        if self.wgsl.says(&["id_of", "("]) && !self.wgsl.says(&["fn", "id_of", "("]) {
+            files.push(problem.naming());
+        }
+        files.push(self.wgsl.clone());
+        files.extend(self.beside.iter().cloned());
+        files
+    }
+}
