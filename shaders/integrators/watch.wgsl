@@ -8,24 +8,31 @@
 @group(1) @binding(3) var<storage, read_write> alarm: array<atomic<u32>>;
 
 const WORKGROUP: u32 = 64u;
+const LARGEST: f32 = 3.4028234663852886e38;
 
-@compute @workgroup_size(WORKGROUP)
-fn watch(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u, @builtin(local_invocation_index) lane: u32) {
-    let i = folded(group, groups) * WORKGROUP + lane;
-    if i < world.count {
-        if broken(position[i]) || broken(velocity[i]) || broken(acceleration[i]) {
-            // Later checks find an earlier step already stored, and do not change the id.
-            if atomicMin(&alarm[0], world.step) >= world.step { atomicMin(&alarm[1], i); }
-        } else {
-            // The largest component stands for the speed: it has no rounding. Bits of floats that are not negative are in
-            // the floats' order.
-            let v = abs(velocity[i].xyz);
-            let speed = max(max(v.x, v.y), v.z);
-            // Few particles are faster than all before them: most only compare.
-            if bitcast<u32>(speed) > atomicLoad(&alarm[5]) { atomicMax(&alarm[5], bitcast<u32>(speed)); }
-            if atomicLoad(&alarm[7]) >= 7u && speed > 2.0 * bitcast<f32>(atomicLoad(&alarm[6])) {
-                if atomicMin(&alarm[3], world.step) >= world.step { atomicMin(&alarm[4], i); }
-            }
-        }
+// The speed beyond which a particle runs away.
+fn bar() -> f32 {
+    if atomicLoad(&alarm[7]) >= 7u { return 2.0 * bitcast<f32>(atomicLoad(&alarm[6])); }
+    return LARGEST;
+}
+
+// The bits of a particle's speed, which are in the floats' order; 0 if it is not finite.
+fn examined(i: u32, bar: f32) -> u32 {
+    if broken(position[i]) || broken(velocity[i]) || broken(acceleration[i]) {
+        // Later checks find an earlier step already stored, and do not change the id.
+        if atomicMin(&alarm[0], world.step) >= world.step { atomicMin(&alarm[1], i); }
+        return 0u;
     }
+    // The largest component stands for the speed: it has no rounding.
+    let v = abs(velocity[i].xyz);
+    let speed = max(max(v.x, v.y), v.z);
+    if speed > bar {
+        if atomicMin(&alarm[3], world.step) >= world.step { atomicMin(&alarm[4], i); }
+    }
+    return bitcast<u32>(speed);
+}
+
+// Few are faster than all before them: most only compare.
+fn note(speed: u32) {
+    if speed > atomicLoad(&alarm[5]) { atomicMax(&alarm[5], speed); }
 }

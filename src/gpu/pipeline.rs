@@ -1,5 +1,6 @@
 //! Pipelines, made once for each shader and set of constants. Layouts come from reflection.
 
+use std::borrow::Cow;
 use std::collections::{BTreeMap, HashMap};
 use std::time::Duration;
 
@@ -110,7 +111,7 @@ fn blame(error: Error, shader: &Shader) -> Error {
 #[expect(unsafe_code, reason = "the only way to switch off checks that cost time in every iteration of an inner loop")]
 fn module(device: &wgpu::Device, shader: &Shader) -> wgpu::ShaderModule {
     let label = shader.sources().last().map(|s| s.file.as_ref());
-    let descriptor = wgpu::ShaderModuleDescriptor { label, source: wgpu::ShaderSource::Wgsl(shader.text().into()) };
+    let descriptor = wgpu::ShaderModuleDescriptor { label, source: source(shader) };
     if !shader.trusted() {
         return device.create_shader_module(descriptor);
     }
@@ -121,6 +122,17 @@ fn module(device: &wgpu::Device, shader: &Shader) -> wgpu::ShaderModule {
         checks.force_loop_bounding = false;
         device.create_shader_module_trusted(descriptor, checks)
     }
+}
+
+/// The module that is parsed already; a browser takes text.
+#[cfg(not(target_arch = "wasm32"))]
+fn source(shader: &Shader) -> wgpu::ShaderSource<'_> {
+    wgpu::ShaderSource::Naga(Cow::Owned(shader.module().clone()))
+}
+
+#[cfg(target_arch = "wasm32")]
+fn source(shader: &Shader) -> wgpu::ShaderSource<'_> {
+    wgpu::ShaderSource::Wgsl(shader.text().into())
 }
 
 pub fn make(device: &wgpu::Device, pass: &Pass) -> Pipeline {

@@ -120,6 +120,7 @@ impl Joined {
 pub struct Shader {
     sources: Vec<Source>,
     text: String,
+    module: naga::Module,
     reflection: Reflection,
     written: Vec<String>,
 }
@@ -150,7 +151,7 @@ impl Shader {
         }
         let Joined { text, module, info } = joined;
         let reflection = Reflection::of(&module, &info);
-        Ok(Arc::new(Self { sources: given.to_vec(), text, reflection, written }))
+        Ok(Arc::new(Self { sources: given.to_vec(), text, module, reflection, written }))
     }
     /// The files.
     #[must_use]
@@ -166,6 +167,11 @@ impl Shader {
     #[must_use]
     pub fn text(&self) -> &str {
         &self.text
+    }
+    /// The parsed text.
+    #[must_use]
+    pub fn module(&self) -> &naga::Module {
+        &self.module
     }
     /// Its bindings and sizes.
     #[must_use]

@@ -1,6 +1,6 @@
 //! Stages of the alarm: numbers that are none, and speeds that run away.
 
-use motes::kernel::{ACCELERATION, ALARM, Backend, Kernel, POSITION, QUIET, VELOCITY, World};
+use motes::kernel::{ACCELERATION, ALARM, Backend, Kernel, Machine, POSITION, QUIET, VELOCITY, World};
 
 use crate::stages::{Device, FEW, Stage, moving, put};
 
@@ -10,9 +10,18 @@ fn known(name: &str, stages: &[Stage]) -> Kernel {
     stage.plan.kernels[0].clone()
 }
 
+/// The watch of machines of both kinds: one whose invocations run one after another, and one whose workgroups run at once.
+fn on_both(device: &Device) -> [(&'static str, Kernel); 2] {
+    let watch = |name, software| {
+        let simulation = moving(device, FEW, Some(Machine { software, ..Machine::HOST }));
+        let found = simulation.step_plan().0.kernels.iter().find(|kernel| kernel.name == "watch").cloned();
+        (name, found.expect("every step has a watch"))
+    };
+    [watch("each", true), watch("workgroup", false)]
+}
+
 /// What the watch must distinguish: which field, which particle, what was seen before.
 pub fn watches(device: &Device, stages: &mut Vec<Stage>) {
-    let watch = known("watch", stages);
     let odd = f32::from_bits(0x7fc0_0001);
     let none = [u32::MAX; 2];
     let cases = [
@@ -24,13 +33,22 @@ pub fn watches(device: &Device, stages: &mut Vec<Stage>) {
         (POSITION, 3, 2, f32::INFINITY, [3, 490]),
         (POSITION, 3, 2, f32::INFINITY, [9, 490]),
     ];
-    for (case, (field, id, place, bad, alarm)) in cases.into_iter().enumerate() {
+    for (visit, watch) in on_both(device) {
+        for (case, (field, id, place, bad, alarm)) in cases.into_iter().enumerate() {
+            let mut simulation = moving(device, FEW, None);
+            let mut values = pollster::block_on(simulation.read(field)).expect("a field");
+            values[id][place] = bad;
+            put(&mut simulation, field, &values);
+            put(&mut simulation, ALARM, &alarm);
+            stages.push(Stage::new(&format!("watch {visit} {case}"), simulation, watch.clone()));
+        }
+        // At rest the largest speed is 0: nothing of earlier workgroups remains, and what is not finite has none.
         let mut simulation = moving(device, FEW, None);
-        let mut values = pollster::block_on(simulation.read(field)).expect("a field");
-        values[id][place] = bad;
-        put(&mut simulation, field, &values);
-        put(&mut simulation, ALARM, &alarm);
-        stages.push(Stage::new(&format!("watch {case}"), simulation, watch.clone()));
+        let mut v = vec![glam::Vec4::ZERO; FEW];
+        v[3].y = odd;
+        put(&mut simulation, VELOCITY, &v);
+        put(&mut simulation, ALARM, &words([u32::MAX; 2], [0.0, 0.0], 0));
+        stages.push(Stage::new(&format!("watch {visit} at rest"), simulation, watch.clone()));
     }
 }
 
@@ -43,7 +61,7 @@ fn words([step, id]: [u32; 2], [now, before]: [f32; 2], doubled: u32) -> [u32; Q
 
 /// What distinguishes a runaway from speeds that are merely high, or merely growing.
 pub fn runaways(device: &Device, stages: &mut Vec<Stage>) {
-    let (watch, tick) = (known("watch", stages), known("tick", stages));
+    let (watches, tick) = (on_both(device), known("tick", stages));
     let speed = |v: &glam::Vec4| v.truncate().abs().max_element();
     // Along each axis 377 is the fastest, by far.
     for axis in 0..3 {
@@ -64,10 +82,12 @@ pub fn runaways(device: &Device, stages: &mut Vec<Stage>) {
             words([9, 490], [0.0, most / 2.5], 7),
         ];
         for (case, alarm) in cases.into_iter().enumerate() {
-            let mut simulation = moving(device, FEW, None);
-            put(&mut simulation, VELOCITY, &v);
-            put(&mut simulation, ALARM, &alarm);
-            stages.push(Stage::new(&format!("runaway {axis} {case}"), simulation, watch.clone()));
+            for (visit, watch) in &watches {
+                let mut simulation = moving(device, FEW, None);
+                put(&mut simulation, VELOCITY, &v);
+                put(&mut simulation, ALARM, &alarm);
+                stages.push(Stage::new(&format!("runaway {visit} {axis} {case}"), simulation, watch.clone()));
+            }
         }
     }
     for (case, [now, before]) in [[3.1, 1.3], [2.6, 1.3], [1.2, 1.3], [0.7, 0.0]].into_iter().enumerate() {

@@ -22,7 +22,7 @@ impl<'a> Step<'a> {
             self.evaluate();
         }
         self.dt_criteria();
-        self.add(watch::kernel(self.problem.capacity));
+        self.add(watch::kernel(&self.problem));
         self.watch_pairs();
         self.finished()
     }
@@ -41,7 +41,7 @@ impl<'a> Step<'a> {
         self.populate();
         // Particles just spawned take part in the criterion for their first step.
         self.dt_criteria();
-        self.add(watch::kernel(self.problem.capacity));
+        self.add(watch::kernel(&self.problem));
         self.watch_pairs();
         self.finished()
     }

@@ -3,18 +3,24 @@
 use std::sync::Arc;
 
 use crate::error::Error;
-use crate::kernel::{ACCELERATION, ALARM, ALARM_WORDS, Kernel, POSITION, Shader, VELOCITY};
+use crate::kernel::{ACCELERATION, ALARM, ALARM_WORDS, Kernel, POSITION, Problem, Shader, VELOCITY};
 
 /// The number of consecutive doublings of the maximum speed after which another one is a runaway: in a fall from rest the speed doubles
 /// once, whatever the step, and then grows ever more slowly.
 const OFTEN: u32 = 7;
 
 /// The kernel.
-pub fn kernel(count: u32) -> Result<Kernel, Error> {
+pub fn kernel(problem: &Problem) -> Result<Kernel, Error> {
+    let visit = if problem.machine.software {
+        crate::shader!("integrators/watch_each.wgsl")
+    } else {
+        crate::shader!("integrators/watch_workgroup.wgsl")
+    };
     let shader = Shader::join(&[
         crate::shader!("world.wgsl"),
         crate::shader!("broken.wgsl"),
         crate::shader!("integrators/watch.wgsl"),
+        visit,
     ])?;
     let reference = |host: &crate::kernel::Host| {
         let done = host.world().step;
@@ -41,6 +47,6 @@ pub fn kernel(count: u32) -> Result<Kernel, Error> {
         }
         Ok(())
     };
-    let kernel = Kernel::new("watch", shader, Vec::new(), count, Arc::new(reference));
+    let kernel = Kernel::new("watch", shader, Vec::new(), problem.capacity, Arc::new(reference));
     Ok(Kernel { sizes: vec![(ALARM.name.into(), ALARM_WORDS as u64)], ..kernel })
 }

@@ -21,16 +21,16 @@ pub fn tokens(text: &str) -> Vec<Token<'_>> {
     let mut all = Vec::new();
     let mut at = 0;
     while let Some(rest) = text.get(at..).filter(|rest| !rest.is_empty()) {
-        let first = rest.chars().next().map_or(1, char::len_utf8);
-        let word = rest.find(|c: char| !(c.is_alphanumeric() || c == '_')).unwrap_or(rest.len());
-        if rest.starts_with("//") {
+        let first = rest.chars().next().unwrap_or(' ');
+        if first.is_whitespace() {
+            at += first.len_utf8();
+        } else if rest.starts_with("//") {
             at += rest.find(is_line_end).unwrap_or(rest.len());
         } else if rest.starts_with("/*") {
             at += comment(rest);
-        } else if rest.starts_with(char::is_whitespace) {
-            at += first;
         } else {
-            let text = &rest[..word.max(first)];
+            let word = rest.find(|c: char| !(c.is_alphanumeric() || c == '_')).unwrap_or(rest.len());
+            let text = &rest[..word.max(first.len_utf8())];
             all.push(Token { text, at });
             at += text.len();
         }
