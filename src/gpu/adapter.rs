@@ -208,6 +208,18 @@ pub(super) fn bindable(limits: &wgpu::Limits) -> u64 {
     limits.max_buffer_size.min(limits.max_storage_buffer_binding_size)
 }
 
+/// The number of invocations that a device of a kind runs at once, and of pair evaluations that it ends within a tenth of a second. A large
+/// GPU runs about a quarter of a million invocations; a software adapter needs one workgroup per core. The slowest discrete GPUs evaluate
+/// some 10¹¹ pairs per second, integrated ones some 2·10¹⁰.
+fn extent(kind: wgpu::DeviceType) -> (u32, u64) {
+    match kind {
+        wgpu::DeviceType::Cpu => (256, 1 << 30),
+        wgpu::DeviceType::DiscreteGpu => (1 << 18, 1 << 33),
+        wgpu::DeviceType::IntegratedGpu => (1 << 16, 1 << 31),
+        wgpu::DeviceType::VirtualGpu | wgpu::DeviceType::Other => (1 << 18, 1 << 30),
+    }
+}
+
 /// The properties of a device that kernels depend on.
 pub(super) fn machine(device: &wgpu::Device) -> Machine {
     let info = device.adapter_info();
@@ -216,10 +228,9 @@ pub(super) fn machine(device: &wgpu::Device) -> Machine {
     // A browser's compiler requires `enable subgroups;`, which naga does not support.
     let usable = device.features().contains(wgpu::Features::SUBGROUP) && fixed && cfg!(not(target_arch = "wasm32"));
     let subgroup = if usable { info.subgroup_min_size } else { 0 };
-    // A large GPU runs about a quarter of a million invocations at once; a software adapter needs one workgroup per core.
-    let invocations = if software { 256 } else { 1 << 18 };
+    let (invocations, meetings) = extent(info.device_type);
     let limits = device.limits();
     let workgroups = limits.max_compute_workgroups_per_dimension;
     let turns = if software { Machine::TURNS } else { u32::MAX };
-    Machine { software, subgroup, invocations, bindable: bindable(&limits), workgroups, turns }
+    Machine { software, subgroup, invocations, meetings, bindable: bindable(&limits), workgroups, turns }
 }

@@ -14,6 +14,9 @@ pub struct Machine {
     pub subgroup: u32,
     /// Invocations that keep the device busy.
     pub invocations: u32,
+    /// The largest number of pair evaluations of one dispatch: a tenth of a second at most on devices of its kind. Each dispatch ends
+    /// with a wait for its last workgroups, so that a fast device has more of them.
+    pub meetings: u64,
     /// The largest number of bytes of a field that one binding holds; 0 where nothing is bound.
     pub bindable: u64,
     /// The largest number of workgroups of a dispatch in one dimension.
@@ -24,8 +27,15 @@ pub struct Machine {
 
 impl Machine {
     /// The host, which runs the references.
-    pub const HOST: Self =
-        Self { software: true, subgroup: 0, invocations: 1, bindable: 0, workgroups: 65_535, turns: Self::TURNS };
+    pub const HOST: Self = Self {
+        software: true,
+        subgroup: 0,
+        invocations: 1,
+        meetings: 1 << 30,
+        bindable: 0,
+        workgroups: 65_535,
+        turns: Self::TURNS,
+    };
     /// A number of iterations below which no known driver ends a loop, with a margin for one that is not counted.
     pub const TURNS: u32 = 60_000;
 }

@@ -7,8 +7,6 @@ use crate::error::Error;
 use crate::kernel::{Kernel, Machine, Pass, Problem, Scalar, Shader, Source, Threads};
 use crate::neighbors::checked;
 
-/// The maximum number of pair evaluations in one dispatch. At 10 billion a second (a small GPU) that is 0.1 s; a large one needs half a millisecond.
-const MEETINGS: u64 = 1 << 30;
 /// The maximum number of sources that one invocation evaluates in one dispatch: half of the 65 535 loop iterations that lavapipe allows.
 const SOURCES: u32 = 1 << 15;
 /// The maximum number of layers: more cost more to add up than they gain.
@@ -32,7 +30,7 @@ impl Cut {
         let invocations = count.div_ceil(targets).max(1);
         let layers = (machine.invocations / invocations).clamp(1, LAYERS).min(blocks);
         let by_layers = blocks.div_ceil(layers);
-        let by_work = u32::try_from(MEETINGS / u64::from(count.max(1)) / u64::from(block) / u64::from(layers))
+        let by_work = u32::try_from(machine.meetings / u64::from(count.max(1)) / u64::from(block) / u64::from(layers))
             .unwrap_or(u32::MAX);
         let slice = by_layers.min(by_work.max(1)).min((sources / block).max(1)) * block;
         Self { layers, slice }
@@ -130,8 +128,9 @@ mod tests {
     #[test]
     fn every_source_is_met_once_and_no_invocation_loops_too_long() {
         let gpu = Machine { software: false, subgroup: 0, invocations: 1 << 18, ..Machine::HOST };
+        let large = Machine { meetings: 1 << 33, ..gpu };
         let cpu = Machine { software: true, subgroup: 8, invocations: 1, ..Machine::HOST };
-        for machine in [gpu, cpu] {
+        for machine in [gpu, large, cpu] {
             for count in [1, 2, 127, 128, 129, 1000, 4096, 65_537, 1 << 20, 8_388_608, 134_217_728] {
                 let cut = Cut::new(count, 4, 128, &machine, SOURCES);
                 assert_eq!(cut.slice % 128, 0, "{cut:?}");
@@ -139,7 +138,10 @@ mod tests {
                 let met = cut.sources().min(u64::from(count)) * u64::from(count);
                 // One block for each layer is the least that a dispatch can evaluate.
                 let least = u64::from(cut.layers) * 128 * u64::from(count);
-                assert!(met <= MEETINGS.max(least), "{count}: {cut:?} meets {met} at once");
+                assert!(met <= machine.meetings.max(least), "{count}: {cut:?} meets {met} at once");
+                let dispatches = u64::from(count).div_ceil(cut.sources());
+                let few = (u64::from(count) * u64::from(count) / machine.meetings).max(u64::from(count / SOURCES));
+                assert!(dispatches <= 2 * few + 2, "{count}: {cut:?} is {dispatches} dispatches, of {few} at least");
             }
         }
     }

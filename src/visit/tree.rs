@@ -20,9 +20,7 @@ const MOST: u32 = 1 << 15;
 /// Bytes of the saved state of walks that continue.
 const KEPT: u64 = 1 << 27;
 /// The maximum number of targets of one dispatch: an integer of groups.
-const TARGETS: u32 = 1 << 18;
-/// The maximum number of evaluations of one dispatch: about a tenth of a second on a slow GPU.
-const MEETINGS: f64 = (1 << 30) as f64;
+const TARGETS: u32 = 1 << 20;
 
 /// The lowest θ: for smaller ones l / θ overflows single precision.
 const LEAST: f64 = 1e-30;
@@ -137,7 +135,7 @@ pub fn kernel(law: Law, tree: &Tree, problem: &Problem) -> Result<Kernel, Error>
     constants.extend(law.mark());
     let each = pair_evaluations(tree, problem);
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "few")]
-    let mut groups = (MEETINGS / each / f64::from(GROUP)).clamp(1.0, f64::from(TARGETS / GROUP)) as u32;
+    let mut groups = (machine.meetings as f64 / each / f64::from(GROUP)).clamp(1.0, f64::from(TARGETS / GROUP)) as u32;
     if let Some(kept) = shader.reflection().binding("tree_kept") {
         constants.push(("MOST", f64::from(machine.turns)));
         groups = groups.min(u32::try_from(KEPT / kept.stride / u64::from(GROUP)).unwrap_or(groups)).max(1);
