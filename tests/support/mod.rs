@@ -12,14 +12,15 @@ pub mod scenes;
 pub mod states;
 pub mod tint;
 
-use std::sync::{Mutex, MutexGuard, OnceLock};
+use std::sync::{Mutex, MutexGuard, OnceLock, TryLockError};
+use std::time::Duration;
 
 use glam::DVec3;
 use motes::State;
 use motes::gpu;
 use motes::links::{Joint, Link, Links};
 
-/// One device for a whole test binary, used by one test at a time: a software device has only these cores.
+/// A device of a whole test binary, used by one test at a time.
 pub struct Shared {
     pub found: gpu::Found,
 }
@@ -41,11 +42,22 @@ fn opened(instance: &motes::wgpu::Instance) -> Shared {
     Shared { found: found.expect("tests need an adapter; tests/run installs one") }
 }
 
-/// The device. No adapter is a failure, never a skip.
+/// Devices that tests share: while one computes, the host of another compiles or evaluates references.
+const DEVICES: usize = 4;
+
+/// A device that no other test uses now. No adapter is a failure, never a skip.
 pub fn device() -> MutexGuard<'static, Shared> {
-    static DEVICE: OnceLock<Mutex<Shared>> = OnceLock::new();
-    let shared = DEVICE.get_or_init(|| Mutex::new(opened(&gpu::instance())));
-    shared.lock().unwrap_or_else(std::sync::PoisonError::into_inner)
+    static ALL: [OnceLock<Mutex<Shared>>; DEVICES] = [const { OnceLock::new() }; DEVICES];
+    loop {
+        for device in &ALL {
+            match device.get_or_init(|| Mutex::new(opened(&gpu::instance()))).try_lock() {
+                Ok(shared) => return shared,
+                Err(TryLockError::Poisoned(shared)) => return shared.into_inner(),
+                Err(TryLockError::WouldBlock) => {}
+            }
+        }
+        std::thread::sleep(Duration::from_millis(2));
+    }
 }
 
 /// The same adapter with another device, whose limits are changed to smaller ones.
