@@ -110,6 +110,10 @@ impl Stage {
             Ok(all) => all.iter().find(|v| !good(v)).map(|verdict| format!("{verdict:?}")),
         }
     }
+    /// The number of particles.
+    pub fn count(&self) -> u32 {
+        self.simulation.borrow().count()
+    }
     /// Whether a file is part of what runs here.
     pub fn uses(&self, file: &str) -> bool {
         let mut passes = self.plan.kernels.iter().flat_map(|k| &k.passes);
