@@ -113,8 +113,20 @@ pub const EQUIVALENT: &[Equivalent] = &[
         "1.0",
         "a wind of no speed has gusts of no speed, whatever their phase",
     ),
-    same("watch_workgroup.wgsl", "if lane == 0u {", "==", "!=", "any invocation of a workgroup may load and raise for all"),
-    same("watch_workgroup.wgsl", "if lane == 0u {", "0u", "1u", "any invocation of a workgroup may load and raise for all"),
+    same(
+        "watch_workgroup.wgsl",
+        "if lane == 0u {",
+        "==",
+        "!=",
+        "any invocation of a workgroup may load and raise for all",
+    ),
+    same(
+        "watch_workgroup.wgsl",
+        "if lane == 0u {",
+        "0u",
+        "1u",
+        "any invocation of a workgroup may load and raise for all",
+    ),
     same("watch.wgsl", "if speed > atomicLoad", ">", ">=", "the largest stays the largest"),
     same(
         "boids.wgsl",
