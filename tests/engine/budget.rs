@@ -21,6 +21,8 @@ const SCENES: &[(&str, &str, &[&str])] = &[
     ("galaxy", "galaxy", &[]),
     ("all pairs", "plummer", &["particles.0.count=16384", "force.0.over=pairs"]),
     ("tree", "plummer", &["particles.0.count=65536", "force.0.over=tree"]),
+    ("a million, all pairs", "plummer", &["particles.0.count=1048576", "force.0.over=pairs"]),
+    ("a million, tree", "plummer", &["particles.0.count=1048576", "force.0.over=tree"]),
     ("flock", "flock", &[]),
     ("vicsek", "vicsek", &[]),
     ("weakly compressible", "dam_break", &[]),
@@ -31,11 +33,12 @@ const SCENES: &[(&str, &str, &[&str])] = &[
     ("ions", "salt", &[]),
 ];
 
-/// The machines whose variants differ the most.
+/// The machines whose variants differ the most: lavapipe, and a discrete GPU.
 fn machines() -> [(&'static str, Machine); 2] {
     let (bindable, workgroups) = (128 << 20, 65_535);
     let software = Machine { subgroup: 8, invocations: 256, bindable, workgroups, ..Machine::HOST };
-    let gpu = Machine { software: false, subgroup: 32, invocations: 1 << 18, turns: u32::MAX, ..software };
+    let gpu =
+        Machine { software: false, subgroup: 32, invocations: 1 << 18, meetings: 1 << 33, turns: u32::MAX, ..software };
     [("software", software), ("gpu", gpu)]
 }
 
