@@ -1,53 +1,48 @@
-// Spheres that overlap by δ (Cundall & Strack 1979; Luding 2008), with n from me to you, and v my velocity relative to yours at the contact:
-//   normal      F = −(k δ + γ v·n) n,  γ = 2 ζ √(k m),  m = m₁ m₂ / (m₁ + m₂),  ζ = −ln e / √(π² + ln² e)
-//   tangential  F = −kₜ ξ − γₜ vₜ,  ξ' = vₜ,  |F| ≤ μ (k δ + γ v·n): at the limit it slides, and ξ is set to give that force
-//   torque      (R − δ / 2) n × F
-struct Params {
-    unused_word: u32, stiffness: f32, damping: f32, friction: f32, tangential_stiffness: f32, tangential_damping: f32,
-}
+// Spheres that overlap by δ push, rub and roll on each other, by the contact of grains/touch. With n from me to you:
+//   torque  (R − δ / 2) n × F,  and what resists rolling and torsion
 struct Sum { force: vec3f, torque: vec3f }
 
-@group(3) @binding(0) var<uniform> params: Params;
-@group(3) @binding(1) var<storage, read> radius: array<f32>;
-@group(3) @binding(2) var<storage, read> angular_velocity: array<vec4f>;
-@group(3) @binding(3) var<storage, read_write> torque: array<vec4f>;
+@group(3) @binding(0) var<uniform> pair_table: array<Pair, 64>; // of 8 species
+@group(3) @binding(1) var<storage, read> angular_velocity: array<vec4f>; // xyz, radius
+@group(3) @binding(2) var<storage, read_write> torque: array<vec4f>;
+
+// 7/5 m R², the moment about the contact of a sphere.
+fn moment(mass: f32, radius: f32) -> f32 { return 1.4 * mass * radius * radius; }
+
+fn reduced(a: f32, b: f32) -> f32 {
+    if a + b > 0.0 { return a * b / (a + b); }
+    return 0.0;
+}
 
 fn gather(me: Particle, you: Particle, r: vec3f, sum: ptr<function, Sum>) {
+    let mine = angular_velocity[me.index];
+    let yours = angular_velocity[you.index];
     let distance = length(r);
-    let overlap = radius[me.index] + radius[you.index] - distance;
+    let overlap = mine.w + yours.w - distance;
     let touches = overlap > 0.0;
     // Two particles at the same position have no direction between them.
     if touches && distance > 0.0 {
         let n = r / distance;
         // From the centres to the middle of the overlap.
-        let my_arm = radius[me.index] - 0.5 * overlap;
-        let your_arm = radius[you.index] - 0.5 * overlap;
-        let spin = my_arm * angular_velocity[me.index].xyz + your_arm * angular_velocity[you.index].xyz;
-        let v = velocity_of(me) - velocity_of(you) + cross(spin, n);
-        let approach = dot(v, n);
-        let slide = v - approach * n;
+        let my_arm = mine.w - 0.5 * overlap;
+        let your_arm = yours.w - 0.5 * overlap;
+        let v = velocity_of(me) - velocity_of(you) + cross(my_arm * mine.xyz + your_arm * yours.xyz, n);
+        let rest = reduced(moment(me.mass, mine.w), moment(you.mass, yours.w));
+        let at = Meeting(n, overlap, v, reduced(mine.w, yours.w), mine.xyz - yours.xyz, reduced(me.mass, you.mass), rest);
 
-        let both = me.mass + you.mass;
-        let mass = select(0.0, me.mass * you.mass / both, both > 0.0);
-        let damping = 2.0 * params.damping * sqrt(params.stiffness * mass);
-        let normal = params.stiffness * overlap + damping * approach;
-
-        let limit = params.friction * max(normal, 0.0);
-        let spring = params.tangential_stiffness * params.stiffness;
-        let drag = (params.tangential_damping * damping) * slide;
-        let last = vec3f(recall(you, 0u), recall(you, 1u), recall(you, 2u));
-        var wound = last - dot(last, n) * n + world.dt * slide;
-        var tangential = -spring * wound - drag;
-        let size = length(tangential);
-        if size > limit {
-            tangential *= limit / size;
-            if spring > 0.0 { wound = -(tangential + drag) / spring; }
-        }
-        remember(you, 0u, wound.x);
-        remember(you, 1u, wound.y);
-        remember(you, 2u, wound.z);
-        (*sum).force += tangential - normal * n;
-        (*sum).torque += my_arm * cross(n, tangential);
+        let slide = vec3f(recall(you, 0u), recall(you, 1u), recall(you, 2u));
+        let roll = vec3f(recall(you, 3u), recall(you, 4u), recall(you, 5u));
+        let pair = pair_table[pair_index(species[me.index], species[you.index])];
+        let contact = touch(pair, at, Wound(slide, roll, recall(you, 6u)));
+        remember(you, 0u, contact.wound.slide.x);
+        remember(you, 1u, contact.wound.slide.y);
+        remember(you, 2u, contact.wound.slide.z);
+        remember(you, 3u, contact.wound.roll.x);
+        remember(you, 4u, contact.wound.roll.y);
+        remember(you, 5u, contact.wound.roll.z);
+        remember(you, 6u, contact.wound.twist);
+        (*sum).force += contact.push;
+        (*sum).torque += my_arm * cross(n, contact.push) + contact.turn;
     }
 }
 

@@ -28,6 +28,10 @@ pub trait Component: Copied + Send + Sync {
     fn columns(&self) -> Vec<Column> {
         Vec::new()
     }
+    /// Columns of its own, which it shares with no other component, where `earlier` of its kind are before it: their names have its number.
+    fn own_columns(&self, _earlier: usize) -> Vec<Column> {
+        Vec::new()
+    }
     /// Its laws, in the order in which they are evaluated; a later one may read what an earlier one wrote.
     fn laws(&self) -> Vec<Law> {
         Vec::new()
@@ -173,6 +177,8 @@ pub struct Properties {
     pub ignores_massless: bool,
     /// The reason for requiring a fixed time step, if it does.
     pub fixed_step: Option<&'static str>,
+    /// Whether it has history that each evaluation advances by a step, beside that of its laws.
+    pub history: bool,
     /// Whether it breaks bonds.
     pub breaks_bonds: bool,
     /// Whether it is evaluated after all others, wherever it is in the scene.
@@ -260,6 +266,20 @@ fn add(laws: impl Iterator<Item = Law>, earlier: usize, plan: &mut Plan, problem
 pub fn carries(law: &Law, problem: &Problem) -> bool {
     let mut pairs = problem.columns.pairs().into_iter();
     pairs.any(|pair| pair.way == Way::Carried && law.into.contains(&pair.rate.name))
+}
+
+/// The number of components of the same kind before a component: two of one kind have separate kernels and columns.
+#[must_use]
+pub fn earlier(all: &[Box<dyn Component>], place: usize) -> usize {
+    let kind = |one: &dyn Component| one.laws().first().map_or_else(|| one.name().to_owned(), |law| law.name.clone());
+    let own = kind(all[place].as_ref());
+    all[..place].iter().filter(|other| kind(other.as_ref()) == own).count()
+}
+
+/// All columns that components declare.
+pub fn declared(all: &[Box<dyn Component>]) -> impl Iterator<Item = Column> {
+    let own = |place: usize| all[place].own_columns(earlier(all, place));
+    all.iter().enumerate().flat_map(move |(place, one)| one.columns().into_iter().chain(own(place)))
 }
 
 /// The name of a kernel with `earlier` of its kind before it.

@@ -53,6 +53,9 @@ impl Component for Registered {
     fn columns(&self) -> Vec<Column> {
         self.made.columns()
     }
+    fn own_columns(&self, earlier: usize) -> Vec<Column> {
+        self.made.own_columns(earlier)
+    }
     fn laws(&self) -> Vec<Law> {
         self.made.laws()
     }

@@ -72,7 +72,7 @@ impl Solid {
         let narrowest = match shape {
             Shape::Box(size) => size.min_element(),
             Shape::Sphere(radius) | Shape::Capsule(_, radius) => radius,
-            Shape::Plane(_) => 0.0,
+            Shape::Plane(_) | Shape::Cone { .. } => 0.0,
         };
         if narrowest < 0.0 {
             return refuse(format!(

@@ -11,6 +11,7 @@ pub use solve::{Explicit, Form, Implicit, implicit};
 
 use super::verbs::{adaptive, at, clear, drift, held, kick, kick_drift, life, runge_kutta};
 use crate::boundary;
+use crate::component::earlier;
 use crate::error::Error;
 use crate::forces::{Component, Problem, Stage};
 use crate::kernel::{Kernel, Plan};
@@ -25,6 +26,8 @@ pub struct Step<'a> {
     moved: bool,
     /// The part of the step by which positions have been advanced.
     drifted: f64,
+    /// The part of the step at which forces are evaluated.
+    time: f64,
     /// A kick that is not written yet: with a following drift it becomes one dispatch.
     kicked: Option<f64>,
     /// Whether kernels are never merged.
@@ -45,6 +48,7 @@ impl<'a> Step<'a> {
             evaluated: false,
             moved: false,
             drifted: 0.0,
+            time: 0.0,
             kicked: None,
             apart: false,
             staged: false,
@@ -90,19 +94,14 @@ impl<'a> Step<'a> {
         let last = |force: &dyn Component| force.properties().evaluated_last;
         let ordered =
             all().filter(|(_, force)| !last(force.as_ref())).chain(all().filter(|(_, force)| last(force.as_ref())));
+        let problem = Problem { reached: self.time, ..self.problem.clone() };
         for (place, force) in ordered {
-            let earlier = self.earlier(place);
+            let earlier = earlier(self.forces, place);
             if self.error.is_none() {
-                self.error = force.stage(Stage::Evaluate { earlier }, &mut laws, &self.problem).err();
+                self.error = force.stage(Stage::Evaluate { earlier }, &mut laws, &problem).err();
             }
         }
         laws
-    }
-    /// The number of components of the same kind before a component: two of one kind have separate kernels.
-    fn earlier(&self, place: usize) -> usize {
-        let name = |force: &dyn Component| force.laws().first().map(|law| law.name.clone());
-        let its = name(self.forces[place].as_ref());
-        self.forces[..place].iter().filter(|other| name(other.as_ref()) == its).count()
     }
     /// Adds the kernels of laws, after which the accelerations of fixed particles are set to zero.
     fn add_laws(&mut self, laws: Plan) {
@@ -173,6 +172,7 @@ impl<'a> Step<'a> {
     }
     /// Forces are evaluated at t + c dt from here on, until the end of the step.
     pub fn at(&mut self, factor: f64) {
+        self.time = factor;
         let kernel = match self.problem.adaptive_step {
             Some(_) => adaptive::at(factor, &self.problem),
             None => at::kernel(factor),

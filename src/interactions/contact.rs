@@ -1,31 +1,43 @@
 //! Granular contacts: spheres with friction that depends on their sliding history.
 
-use std::f64::consts::PI;
+use std::sync::Arc;
 
 use glam::DVec3;
 
-use super::{Component, Law, Properties, params};
+use super::pair_potential::rows;
+use super::{Component, Law, Properties};
 use crate::component::Largest;
-use crate::kernel::{Column, Kind as Element, World};
-use crate::rotation;
+use crate::error::Error;
+use crate::grains::{self, Material, Meeting, Wound, moment, reduced};
+use crate::kernel::{Bounds, Column, World};
 use crate::settings::{Key, Kind, Settings, Value};
-use crate::visit::{Memory, Outcome, Particle};
+use crate::visit::{Memory, Outcome, PairRow, PairTable, Particle};
 
 /// The keys in a scene.
 pub const KEYS: &[Key] = &[
     Key::required("range", Kind::Positive, "the largest sum of two radii; larger ones are refused [length]"),
-    Key::new("stiffness", Kind::Positive, Value::Number(1000.0), "k, the normal force per overlap [mass / time²]"),
-    Key::new("restitution", Kind::Fraction, Value::Number(0.8), "the coefficient of restitution: the speed after a head-on impact over that before"),
-    Key::new("friction", Kind::NotNegative, Value::Number(0.5), "the friction coefficient μ: spheres slide where the tangential force would exceed μ times the normal force"),
-    Key::new("tangential_stiffness", Kind::NotNegative, Value::Number(2.0 / 7.0), "the tangential stiffness, relative to the normal one"),
-    Key::new("tangential_damping", Kind::NotNegative, Value::Number(0.5), "the tangential damping, relative to the normal one"),
+    grains::MODEL,
+    grains::STIFFNESS,
+    grains::YOUNG,
+    grains::POISSON,
+    grains::RESTITUTION,
+    grains::FRICTION,
+    grains::TANGENTIAL_STIFFNESS,
+    grains::TANGENTIAL_DAMPING,
+    grains::ROLLING,
+    grains::ROLLING_MODEL,
+    grains::ROLLING_DAMPING,
+    grains::TORSION,
+    grains::PAIRS,
     Key::new("skin", Kind::NotNegative, Value::Number(0.0), "the skin of the neighbour list beyond the range; 0: a fifth of the range [length]"),
 ];
 
-/// `contact`: a linear spring and dashpot along the line between two spheres that overlap, and across it a spring that sliding
-/// winds up, bounded by Coulomb's friction (Cundall & Strack, Géotechnique 29, 47, 1979; Luding, Granular Matter 10, 235, 2008).
+/// `contact`: a spring and dashpot along the line between two spheres that overlap, linear or by Hertz, and across it a spring that
+/// sliding winds up, bounded by Coulomb's friction (Cundall & Strack, Géotechnique 29, 47, 1979; Mindlin, J. Appl. Mech. 16, 259, 1949;
+/// Luding, Granular Matter 10, 235, 2008), resistance to rolling (Ai et al., Powder Technol. 206, 269, 2011) and to torsion.
 /// Spheres have their `radius`, and turn by the torques, with their `inertia`. The dashpot is that which makes the
-/// coefficient of restitution what is asked for, whatever the masses. Springs hold energy that is not measured.
+/// coefficient of restitution what is asked for, whatever the masses and the speed (Tsuji et al., Powder Technol. 71, 239, 1992). Springs
+/// hold energy that is not measured.
 #[derive(Clone)]
 pub struct Contact(Settings);
 
@@ -36,15 +48,10 @@ struct Sum {
     torque: DVec3,
 }
 
-/// The parameters of contacts.
-#[derive(Debug, Clone, Copy)]
-struct Material {
-    stiffness: f64,
-    /// ζ, half the damping by √(k m).
-    damping: f64,
-    friction: f64,
-    tangential_stiffness: f64,
-    tangential_damping: f64,
+/// The material of a pair of species.
+struct Row {
+    species: [u32; 2],
+    material: Material,
 }
 
 impl Contact {
@@ -53,23 +60,19 @@ impl Contact {
     pub fn new(settings: &Settings) -> Self {
         Self(settings.clone())
     }
-    fn material(&self) -> Material {
-        let [stiffness, friction] = ["stiffness", "friction"].map(|name| self.0.number(name));
-        let loss = -self.0.number("restitution").ln();
-        Material {
-            stiffness,
-            damping: loss / PI.hypot(loss),
-            friction,
-            tangential_stiffness: self.0.number("tangential_stiffness"),
-            tangential_damping: self.0.number("tangential_damping"),
-        }
+    fn rows(&self) -> Vec<Row> {
+        let rows = rows(&self.0, &grains::NAMES, Some(grains::mixed));
+        let row = |(species, values): ([u32; 2], Vec<f64>)| Row { species, material: Material::new(&self.0, &values) };
+        rows.into_iter().map(|one| row((one.species, one.values))).collect()
     }
 }
 
 impl Component for Contact {
     fn columns(&self) -> Vec<Column> {
-        let radius = Column::new("radius", Element::Scalar, "length", "of the sphere that others touch").required();
-        [rotation::columns(), vec![radius]].concat()
+        grains::columns()
+    }
+    fn check(&self, _: &Bounds) -> Result<(), Error> {
+        rows(&self.0, &grains::NAMES, Some(grains::mixed)).iter().try_for_each(|row| grains::check(&row.values))
     }
     fn properties(&self) -> Properties {
         Properties {
@@ -81,11 +84,16 @@ impl Component for Contact {
         }
     }
     fn laws(&self) -> Vec<Law> {
-        let material = self.material();
-        let mut values = params(&self.0, &["stiffness", "friction", "tangential_stiffness", "tangential_damping"]);
-        values.push(("damping".to_owned(), crate::kernel::Scalar::Float(material.damping)));
+        let rows = self.rows();
+        let slots = rows.iter().map(|row| row.material.words()).max().unwrap_or(0);
+        let table = rows.iter().map(|row| PairRow { species: row.species, values: row.material.members() }).collect();
+        let rows: Arc<[Row]> = rows.into();
         let gather = move |me: &Particle, you: &Particle, r: DVec3, world: &World, memory: &mut Memory<'_>, sum: &mut Sum| {
-            material.touch(me, you, r, world, memory, sum);
+            let pair = [me.species(), you.species()];
+            let known = rows.iter().find(|row| row.species == pair || row.species == [pair[1], pair[0]]);
+            if let Some(row) = known {
+                touch(&row.material, (me, you), r, world, memory, sum);
+            }
         };
         let finish = |me: &Particle, sum: &Sum, _: &World, outcome: &mut Outcome| {
             if me.mass > 0.0 {
@@ -94,44 +102,35 @@ impl Component for Contact {
             outcome.add("torque", sum.torque);
         };
         let skin = Some(self.0.number("skin")).filter(|skin| *skin > 0.0);
-        let (over, wgsl) = ((self.0.number("range"), skin, 3), crate::shader!("interactions/contact.wgsl"));
-        let law = Law::remembering("contact", over, wgsl, values, &["acceleration", "torque"], gather, finish);
-        vec![Law { reciprocal: true, ..law }]
+        let (over, wgsl) = ((self.0.number("range"), skin, slots), crate::shader!("interactions/contact.wgsl"));
+        let law = Law::remembering("contact", over, wgsl, Vec::new(), &["acceleration", "torque"], gather, finish);
+        vec![Law { reciprocal: true, pairs: Some(PairTable { rows: table }), ..law }]
     }
 }
 
-impl Material {
-    fn touch(&self, me: &Particle, you: &Particle, r: DVec3, world: &World, memory: &mut Memory<'_>, sum: &mut Sum) {
-        let radius = |particle: &Particle| particle.scalar("radius").unwrap_or(0.0);
-        let spin = |particle: &Particle| particle.vector("angular_velocity").unwrap_or_default().truncate();
-        let distance = r.length();
-        let overlap = radius(me) + radius(you) - distance;
-        // Two particles at the same position have no direction between them.
-        if overlap <= 0.0 || distance <= 0.0 {
-            return;
-        }
-        let n = r / distance;
-        // From the centres to the middle of the overlap.
-        let arms = [radius(me) - 0.5 * overlap, radius(you) - 0.5 * overlap];
-        let v = me.velocity - you.velocity + (arms[0] * spin(me) + arms[1] * spin(you)).cross(n);
-        let (approach, slide) = (v.dot(n), v - v.dot(n) * n);
-        let mass = me.mass * you.mass / (me.mass + you.mass).max(f64::MIN_POSITIVE);
-        let damping = 2.0 * self.damping * (self.stiffness * mass).sqrt();
-        let normal = self.stiffness * overlap + damping * approach;
-        let limit = self.friction * normal.max(0.0);
-        let across = self.tangential_damping * damping;
-        let spring = self.tangential_stiffness * self.stiffness;
-        let wound = DVec3::from([0, 1, 2].map(|word| memory.recall(word)));
-        let mut wound = wound - wound.dot(n) * n + world.dt * slide;
-        let mut tangential = -spring * wound - across * slide;
-        if tangential.length() > limit {
-            tangential *= limit / tangential.length();
-            if spring > 0.0 {
-                wound = -(tangential + across * slide) / spring;
-            }
-        }
-        wound.to_array().into_iter().enumerate().for_each(|(word, value)| memory.remember(word, value));
-        sum.force += tangential - normal * n;
-        sum.torque += arms[0] * n.cross(tangential);
+fn touch(material: &Material, (me, you): (&Particle, &Particle), r: DVec3, world: &World, memory: &mut Memory<'_>, sum: &mut Sum) {
+    let [mine, yours] = [me, you].map(|particle| particle.vector("angular_velocity").unwrap_or_default());
+    let distance = r.length();
+    let overlap = mine.w + yours.w - distance;
+    // Two particles at the same position have no direction between them.
+    if overlap <= 0.0 || distance <= 0.0 {
+        return;
     }
+    let n = r / distance;
+    // From the centres to the middle of the overlap.
+    let [arm, other] = [mine.w - 0.5 * overlap, yours.w - 0.5 * overlap];
+    let [spin, yours_spin] = [mine, yours].map(glam::DVec4::truncate);
+    let at = Meeting {
+        n,
+        overlap,
+        v: me.velocity - you.velocity + (arm * spin + other * yours_spin).cross(n),
+        radius: reduced(mine.w, yours.w),
+        spin: spin - yours_spin,
+        mass: reduced(me.mass, you.mass),
+        rest: reduced(moment(me.mass, mine.w), moment(you.mass, yours.w)),
+    };
+    let touch = material.touch(&at, &Wound::of(|word| memory.recall(word)), world.dt);
+    touch.wound.words().into_iter().enumerate().for_each(|(word, value)| memory.remember(word, value));
+    sum.force += touch.push;
+    sum.torque += arm * n.cross(touch.push) + touch.turn;
 }

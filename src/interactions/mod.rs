@@ -34,6 +34,7 @@ components! {
     yukawa: Yukawa, "screened charges, by pair of species (Debye & Hückel 1923, Yukawa 1935)";
     soft: Soft, "soft spheres that may overlap, by pair of species (Groot & Warren 1997)";
     contact: Contact, "granular contacts of spheres: normal springs and dashpots, friction with history, torques (Cundall & Strack 1979)";
+    contact_wall: ContactWall, "a wall that grains touch as they touch each other: plane, box, sphere, capsule, tube or funnel, still or moving (Cundall & Strack 1979)";
     spring: Spring, "springs and ropes, damped along their axis (Hooke 1678)";
     joint: Joint, "joints that resist bending: elastic rods, hair (Euler 1744)";
     fluid: Fluid, "a fluid by smoothed particle hydrodynamics, weakly compressible (Monaghan 1994); fixed particles are its walls";

@@ -51,6 +51,8 @@ pub fn check(
             Solid::Box(size) => (size.to_array().to_vec(), size.min_element() >= 0.0 && size.max_element() > 0.0),
             Solid::Plane(normal) => (normal.to_array().to_vec(), (normal.length() - 1.0).abs() < 1e-6),
             Solid::Capsule(axis, radius) => ([axis.to_array().to_vec(), vec![radius]].concat(), radius > 0.0),
+            // A surface has no inside in which particles could be removed.
+            Solid::Cone { .. } => (Vec::new(), false),
         };
         let mut numbers = numbers.into_iter().chain(drain.position.to_array());
         if !good || !numbers.all(fits) {

@@ -40,6 +40,15 @@ pub enum Shape {
     },
     /// All below z = 0: a floor.
     Plane,
+    /// The surface of a cone about z, which is drawn as edges.
+    Cone {
+        /// The radius at the lower end \[length\].
+        radius: f64,
+        /// The radius at the upper end \[length\].
+        end: f64,
+        /// Half the height \[length\].
+        half: f64,
+    },
 }
 
 /// Words of a solid on the device.
@@ -60,6 +69,10 @@ impl Solid {
                 let along = axis.try_normalize().unwrap_or(DVec3::Z);
                 (Shape::Capsule { radius, half: 0.5 * axis.length() }, DQuat::from_rotation_arc(DVec3::Z, along))
             }
+            solids::Solid::Cone { axis, radius, end } => {
+                let along = axis.try_normalize().unwrap_or(DVec3::Z);
+                (Shape::Cone { radius, end, half: 0.5 * axis.length() }, DQuat::from_rotation_arc(DVec3::Z, along))
+            }
         };
         let motion = motions.iter().find(|motion| motion.name == standing.motion);
         let place = motion.map_or(standing.position, |motion| motion.place(standing.position, time));
@@ -74,6 +87,7 @@ impl Solid {
             Shape::Capsule { radius, half } => Some(radius + half),
             Shape::Box { half } => Some(half.length()),
             Shape::Plane => None,
+            Shape::Cone { radius, end, half } => Some(half.hypot(radius.max(end))),
         }
     }
     /// The same in the axes of a camera, about its centre.
@@ -90,6 +104,8 @@ impl Solid {
             Shape::Capsule { radius, half } => (radius, half * DVec3::Z, ROUND),
             Shape::Box { half } => (0.0, half, BOX),
             Shape::Plane => (0.0, square_of(camera.extent) * DVec3::X, PLANE),
+            // It has no face: the device draws its edges alone.
+            Shape::Cone { .. } => (0.0, DVec3::ZERO, ROUND),
         };
         #[expect(clippy::cast_possible_truncation, reason = "rounding to f32 is what the device does")]
         let bits = |x: f64| (x as f32).to_bits();

@@ -8,11 +8,16 @@ use super::solid::{Shape, Solid};
 /// Ends of an edge that is not in the picture are so far out of it.
 const AWAY: f64 = -1e6;
 
-/// How many edges a tank has: a rectangle 4, a box 12, and nothing else any.
+/// Chords of a circle.
+const CHORDS: u32 = 48;
+
+/// How many edges a tank has: a rectangle 4, a box 12, a cone two circles and lines between them, a capsule two circles, and nothing else any.
 pub fn number(tank: &Solid) -> u32 {
     match tank.shape {
         Shape::Box { half } if half.z == 0.0 => 4,
         Shape::Box { .. } => 12,
+        Shape::Cone { .. } => 2 * CHORDS + CHORDS / 4,
+        Shape::Capsule { .. } => 2 * CHORDS,
         _ => 0,
     }
 }
@@ -32,7 +37,12 @@ pub struct Cover {
 
 /// The edges of a tank, as a frame sees them.
 pub fn edges(tank: &Solid, frame: &Frame) -> Vec<Edge> {
-    let Shape::Box { half } = tank.shape else { return Vec::new() };
+    let half = match tank.shape {
+        Shape::Box { half } => half,
+        Shape::Cone { radius, end, half } => return rings(tank, frame, [radius, end], half, CHORDS / 4),
+        Shape::Capsule { radius, half } => return rings(tank, frame, [radius; 2], half, 0),
+        _ => return Vec::new(),
+    };
     let corner = |bits: usize| {
         let side = |k: usize| if bits >> k & 1 == 1 { half[k] } else { -half[k] };
         tank.place + tank.turn * DVec3::new(side(0), side(1), side(2))
@@ -41,6 +51,19 @@ pub fn edges(tank: &Solid, frame: &Frame) -> Vec<Edge> {
     let from = |low: usize| (0..axes).filter(move |axis| low >> axis & 1 == 0).map(move |axis| (low, low | 1 << axis));
     let pairs = (0..1_usize << axes).flat_map(from);
     pairs.map(|(a, b)| Edge { ends: seen(frame, corner(a), corner(b)) }).collect()
+}
+
+/// Two circles about z, at both ends, and lines between them.
+fn rings(tank: &Solid, frame: &Frame, radii: [f64; 2], half: f64, lines: u32) -> Vec<Edge> {
+    let at = |end: usize, chord: u32| {
+        let (sine, cosine) = (std::f64::consts::TAU * f64::from(chord) / f64::from(CHORDS)).sin_cos();
+        let z = if end == 0 { -half } else { half };
+        tank.place + tank.turn * DVec3::new(radii[end] * cosine, radii[end] * sine, z)
+    };
+    let circles = (0..2).flat_map(|end| (0..CHORDS).map(move |chord| [(end, chord), (end, chord + 1)]));
+    let between = (0..lines).map(|line| [(0, line * CHORDS / lines), (1, line * CHORDS / lines)]);
+    let all = circles.chain(between);
+    all.map(|[a, b]| Edge { ends: seen(frame, at(a.0, a.1), at(b.0, b.1)) }).collect()
 }
 
 impl Edge {

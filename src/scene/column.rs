@@ -1,5 +1,6 @@
 //! `[[column]]`: quantities that a scene declares, and what the sections of particles may give of any column.
 
+use crate::component::declared as declared_by;
 use crate::forces::Component;
 use crate::kernel::{Array, Column, Columns, Kind, Shape};
 use crate::settings::{self, Key, Value};
@@ -82,7 +83,7 @@ fn one(table: &Table<'_>, out: &mut Writer, report: &mut Report) -> Option<Colum
 
 /// All columns of a scene: those of its forces, and those that it declares.
 pub(super) fn all(forces: &[Box<dyn Component>], declared: &[(Column, Place)], report: &mut Report) -> Columns {
-    let of_forces: Vec<Column> = forces.iter().flat_map(|force| force.columns()).collect();
+    let of_forces: Vec<Column> = declared_by(forces).collect();
     // Faults of a force by itself are reported where it is built.
     let mut known = Columns::with(of_forces.clone()).unwrap_or_default();
     let mut all = of_forces;

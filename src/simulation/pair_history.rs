@@ -8,6 +8,7 @@ use std::collections::BTreeMap;
 use glam::DVec4;
 
 use super::Simulation;
+use crate::component::{earlier, numbered};
 use crate::error::Error;
 use crate::forces::{Component, Law, Over};
 use crate::kernel::{Array, Backend, Element, ListShape, Plan};
@@ -26,18 +27,27 @@ pub(super) type Pairs = BTreeMap<[u32; 2], Vec<f64>>;
 /// # Errors
 /// [`Error::Scene`] with the number of evaluations.
 pub(super) fn once(forces: &[Box<dyn Component>], step: &Plan) -> Result<(), Error> {
+    let own = forces.iter().enumerate().filter(|(_, force)| force.properties().history);
+    for (place, force) in own {
+        let name = numbered(force.name(), earlier(forces, place));
+        refuse(&name, step.steps().filter(|kernel| kernel.name == name).count())?;
+    }
     let remembers = |law: &Law| matches!(law.over, Over::List { slots, .. } if slots > 0);
     for law in forces.iter().flat_map(|force| force.laws()).filter(remembers) {
         let evaluations = step.steps().filter(|kernel| kernel.name == law.name).count();
-        if evaluations > 1 {
-            return Err(Error::Scene(format!(
-                "`{}` keeps history of pairs (slots), and this integrator evaluates forces {evaluations} times in a step, of which only the \
-                 last would be saved: choose one that evaluates them once, such as leapfrog or symplectic_euler",
-                law.name
-            )));
-        }
+        refuse(&law.name, evaluations)?;
     }
     Ok(())
+}
+
+fn refuse(name: &str, evaluations: usize) -> Result<(), Error> {
+    if evaluations <= 1 {
+        return Ok(());
+    }
+    Err(Error::Scene(format!(
+        "`{name}` keeps history of pairs (slots), and this integrator evaluates forces {evaluations} times in a step, of which only the \
+         last would be saved: choose one that evaluates them once, such as leapfrog or symplectic_euler"
+    )))
 }
 
 /// The largest number of pairs with history of any row of a state.

@@ -6,6 +6,7 @@ use glam::DVec3;
 
 use super::{columns, inactive, initial_projection, lists, pair_history, unwritten};
 use crate::boundary;
+use crate::component;
 use crate::error::Error;
 use crate::forces::{Component, Over, Problem, Stage};
 use crate::integrators::{Integrator, Leapfrog, Step};
@@ -177,7 +178,7 @@ impl Setup {
     /// # Errors
     /// [`Error::Scene`] when two declarations of one name differ, or a declaration is invalid.
     pub fn columns(&self) -> Result<Columns, Error> {
-        let forces = self.forces.iter().flat_map(|force| force.columns());
+        let forces = component::declared(&self.forces);
         let integrator = self.integrator.columns();
         let mut all: Vec<Column> = forces.chain(integrator).chain(columns::of_held(&self.state.held)).collect();
         let known = Columns::with(all.clone())?;

@@ -1,7 +1,7 @@
 //! Simple solids by their signed distances: what particles avoid, lie on, or are kept in. The reference of
 //! `shaders/solids/distance.wgsl`.
 
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 
 /// The words for the shapes, in the order of their numbers in shaders.
 pub const SHAPES: &[&str] = &["sphere", "box", "plane", "capsule"];
@@ -17,6 +17,15 @@ pub enum Solid {
     Plane(DVec3),
     /// All within a radius of a line \[length\], which is given by the vector from one end to the other \[length\].
     Capsule(DVec3, f64),
+    /// The lateral surface of a cone, or a tube, without thickness: its distance is never below 0.
+    Cone {
+        /// From the centre of one end to the other's \[length\].
+        axis: DVec3,
+        /// The radius at the first end \[length\].
+        radius: f64,
+        /// The radius at the other end \[length\].
+        end: f64,
+    },
 }
 
 /// A solid with its position, for pictures.
@@ -48,6 +57,18 @@ impl Solid {
                 let across = axis.cross(DVec3::Z).try_normalize().unwrap_or(DVec3::X);
                 round(d - along * axis, across, radius)
             }
+            Self::Cone { axis, radius, end } => {
+                let (along, height) = (axis.normalize_or(DVec3::Z), axis.length());
+                let across = d - d.dot(along) * along;
+                // In the plane of the axis and the point, the surface is a segment. On the axis no direction is nearer than another.
+                let out = across.normalize_or_zero();
+                let from = DVec2::new(across.length() - radius, d.dot(along) + 0.5 * height);
+                let way = DVec2::new(end - radius, height);
+                let s = (from.dot(way) / way.length_squared().max(f64::MIN_POSITIVE)).clamp(0.0, 1.0);
+                let left = from - s * way;
+                let n = left.try_normalize().unwrap_or(DVec2::X);
+                (n.x * out + n.y * along, left.length())
+            }
             Self::Box(size) => {
                 let half = size * 0.5;
                 let depth = d.abs() - if dimensions == 2 { half.with_z(3e38) } else { half };
@@ -69,6 +90,7 @@ impl Solid {
             Self::Box(size) => (0.0, size, DVec3::ZERO),
             Self::Plane(normal) => (0.0, DVec3::ZERO, normal),
             Self::Capsule(axis, radius) => (radius, DVec3::ZERO, axis),
+            Self::Cone { axis, radius, end } => (radius, DVec3::new(end, 0.0, 0.0), axis),
         }
     }
     /// Its index in [`SHAPES`].
@@ -79,6 +101,7 @@ impl Solid {
             Self::Box(_) => 1,
             Self::Plane(_) => 2,
             Self::Capsule(..) => 3,
+            Self::Cone { .. } => 4,
         }
     }
 }

@@ -345,18 +345,83 @@ typed! {
     Contact "contact" contact(range: f64) {
         /// The largest sum of two radii; larger ones are refused \[length\].
         range: f64,
-        /// K, the normal force per overlap \[mass / time²\].
+        /// The force of an overlap: proportional to it, or by Hertz and Mindlin: linear, hertz.
+        model: Cow<'static, str>,
+        /// Linear: k, the normal force per overlap \[mass / time²\].
         stiffness: f64,
+        /// Hertz: Young's modulus of both bodies \[mass / length / time²\].
+        young_modulus: f64,
+        /// Hertz: Poisson's ratio of both bodies, 0.5 at most.
+        poisson_ratio: f64,
         /// The coefficient of restitution: the speed after a head-on impact over that before.
         restitution: f64,
-        /// The friction coefficient μ: spheres slide where the tangential force would exceed μ times the normal force.
+        /// The friction coefficient μ: a contact slides where the tangential force would exceed μ times the normal force.
         friction: f64,
-        /// The tangential stiffness, relative to the normal one.
+        /// Linear: the tangential stiffness, relative to the normal one.
         tangential_stiffness: f64,
-        /// The tangential damping, relative to the normal one.
+        /// The tangential damping, relative to the normal one; hertz: also times the root of the ratio of stiffnesses.
         tangential_damping: f64,
+        /// The coefficient of rolling friction μᵣ: the largest torque against rolling, relative to the normal force times the reduced radius.
+        rolling_friction: f64,
+        /// Rolling friction by a spring and a dashpot up to that torque, which piles at rest require, or always of that size: elastic_plastic, constant.
+        rolling_model: Cow<'static, str>,
+        /// Elastic_plastic: the damping of rolling, relative to the critical one.
+        rolling_damping: f64,
+        /// The coefficient of torsional friction: the largest torque about the normal, relative to the normal force times the reduced radius.
+        torsional_friction: f64,
+        /// Factors for pairs of species, as in \[{ species = \[0, 1\], friction = 0.5 }\], by which the values above are multiplied; of two species with values of their own, the pair has both as springs in series, and geometric means of all coefficients; none: all species are alike.
+        pairs: Vec<Pair>,
         /// The skin of the neighbour list beyond the range; 0: a fifth of the range \[length\].
         skin: f64,
+    }
+    /// A wall that grains touch as they touch each other: plane, box, sphere, capsule, tube or funnel, still or moving (Cundall & Strack 1979).
+    ContactWall "contact_wall" contact_wall() {
+        /// Its shape: plane, box, sphere, capsule, cone.
+        shape: Cow<'static, str>,
+        /// Its centre, or a point on the plane \[length\].
+        position: DVec3,
+        /// Plane: the direction to the grains.
+        normal: DVec3,
+        /// Box: its sides \[length\].
+        size: DVec3,
+        /// Sphere and capsule: the radius; cone: that of its first end \[length\].
+        radius: f64,
+        /// Cone: the radius of its other end \[length\].
+        end_radius: f64,
+        /// Capsule and cone: from the centre of one end to the other's \[length\].
+        axis: DVec3,
+        /// Whether it is a container with grains inside; a box then has a contact with a side along each axis.
+        inside: bool,
+        /// The motion that moves it, if any.
+        motion: Cow<'static, str>,
+        /// The force of an overlap: proportional to it, or by Hertz and Mindlin: linear, hertz.
+        model: Cow<'static, str>,
+        /// Linear: k, the normal force per overlap \[mass / time²\].
+        stiffness: f64,
+        /// Hertz: Young's modulus of both bodies \[mass / length / time²\].
+        young_modulus: f64,
+        /// Hertz: Poisson's ratio of both bodies, 0.5 at most.
+        poisson_ratio: f64,
+        /// The coefficient of restitution: the speed after a head-on impact over that before.
+        restitution: f64,
+        /// The friction coefficient μ: a contact slides where the tangential force would exceed μ times the normal force.
+        friction: f64,
+        /// Linear: the tangential stiffness, relative to the normal one.
+        tangential_stiffness: f64,
+        /// The tangential damping, relative to the normal one; hertz: also times the root of the ratio of stiffnesses.
+        tangential_damping: f64,
+        /// The coefficient of rolling friction μᵣ: the largest torque against rolling, relative to the normal force times the reduced radius.
+        rolling_friction: f64,
+        /// Rolling friction by a spring and a dashpot up to that torque, which piles at rest require, or always of that size: elastic_plastic, constant.
+        rolling_model: Cow<'static, str>,
+        /// Elastic_plastic: the damping of rolling, relative to the critical one.
+        rolling_damping: f64,
+        /// The coefficient of torsional friction: the largest torque about the normal, relative to the normal force times the reduced radius.
+        torsional_friction: f64,
+        /// The species that it acts on, or "all".
+        species: Option<u32>,
+        /// What is evaluated: single particles.
+        over: Cow<'static, str>,
     }
     /// Springs and ropes, damped along their axis (Hooke 1678).
     Spring "spring" spring() {

@@ -57,8 +57,47 @@ pub const EQUIVALENT: &[Equivalent] = &[
     same("wca.wgsl", "if dot(r, r) < pair.range * pair.range", "<", "<=", EDGE),
     same("truncation.wgsl", "if r <= onset", "<=", "<", EDGE),
     same("contact.wgsl", "let touches = overlap > 0.0", ">", ">=", EDGE),
-    same("contact.wgsl", "if size > limit", ">", ">=", "at the limit it is the limit either way"),
+    same("touch.wgsl", "if size > limit", ">", ">=", "at the limit it is the limit either way"),
+    same("contact_wall.wgsl", "override WORDS: u32 = 3u", "3u", "4u", ALWAYS_SET),
+    same("contact_wall.wgsl", "if params.contacts > 1u", "1u", "2u", "there are 1 or 3"),
+    same(
+        "contact_wall.wgsl",
+        "select(1.0, -1.0, own[contact] >= 0.0)",
+        ">=",
+        ">",
+        "no centre lies exactly in the middle",
+    ),
+    same(
+        "contact_wall.wgsl",
+        "if word < WORDS { return",
+        "<",
+        "<=",
+        "a word that is not kept belongs to a spring without stiffness",
+    ),
+    same(
+        "contact_wall.wgsl",
+        "    return 0.0;",
+        "0.0",
+        "1.0",
+        "a word that is not kept belongs to a spring without stiffness",
+    ),
+    same("contact_wall.wgsl", "0u, params.stiffness", "0u", "1u", "it is not read"),
+    same(
+        "contact_wall.wgsl",
+        "let next = place(me.index, world.step + 1u",
+        "+",
+        "-",
+        "the other half is the other half",
+    ),
+    same("contact_wall.wgsl", "if meets && overlap > 0.0", ">", ">=", EDGE),
+    same("touch.wgsl", "if sprung && pair.rolling > 0.0", ">", ">=", "a spring without stiffness gives no torque"),
+    same("touch.wgsl", "if pair.torsion > 0.0", ">", ">=", "a spring without stiffness gives no torque"),
+    same("touch.wgsl", "var twist = 0.0", "0.0", "1.0", "without torsion its word is not read"),
+    same("touch.wgsl", "if most > rolling_limit", ">", ">=", "at the limit it is the limit either way"),
 ];
+
+/// Angular velocities and radii.
+const SPINS: motes::kernel::Field<Vec4> = motes::kernel::Field::new("angular_velocity");
 
 fn number(x: f64) -> Value {
     Value::Number(x)
@@ -105,7 +144,16 @@ fn atoms(name: &'static str, device: &Device, stages: &mut Vec<Stage>) {
 
 /// Grains some steps on their way, of which two are at one place, some without mass touch, and some light ones.
 fn grains(device: &Device, stages: &mut Vec<Stage>) {
-    for (friction, spring) in [(0.4, 0.3), (0.03, 0.35), (0.3, 0.0), (0.2, 0.002)] {
+    let linear = |friction: f64, spring: f64| (friction, spring, "linear", "constant", [0.0, 0.0]);
+    let some = [linear(0.4, 0.3), linear(0.03, 0.35), linear(0.3, 0.0), linear(0.2, 0.002)];
+    // Rolling and torsion that hold, and that yield; each alone.
+    let rolling = [
+        (0.4, 0.3, "hertz", "elastic_plastic", [0.6, 0.7]),
+        (0.3, 0.3, "hertz", "elastic_plastic", [0.02, 0.03]),
+        (0.3, 0.3, "linear", "elastic_plastic", [0.3, 0.0]),
+        (0.3, 0.3, "linear", "constant", [0.3, 0.2]),
+    ];
+    for (friction, spring, model, rolling_model, [rolling, torsion]) in some.into_iter().chain(rolling) {
         let settings = [
             ("range", number(1.0)),
             ("skin", number(0.9)),
@@ -114,6 +162,13 @@ fn grains(device: &Device, stages: &mut Vec<Stage>) {
             ("friction", number(friction)),
             ("tangential_stiffness", number(spring)),
             ("tangential_damping", number(0.7)),
+            ("model", model.into()),
+            ("young_modulus", number(2000.0)),
+            ("poisson_ratio", number(0.3)),
+            ("rolling_model", rolling_model.into()),
+            ("rolling_friction", number(rolling)),
+            ("rolling_damping", number(0.4)),
+            ("torsional_friction", number(torsion)),
         ];
         let mut random = Random::new(5);
         let mut state = motes::State::default();
@@ -149,11 +204,93 @@ fn grains(device: &Device, stages: &mut Vec<Stage>) {
         places[8] = middle.truncate().extend(places[8].w);
         places[9] = middle.truncate().extend(places[9].w);
         simulation.backend().write_bytes(POSITION.name, 0, bytemuck::cast_slice(&places)).expect("places");
+        // Some that do not roll on each other.
+        let mut spins = pollster::block_on(simulation.read(SPINS)).expect("spins");
+        spins[..12].iter_mut().for_each(|spin| *spin = Vec4::ZERO.with_w(spin.w));
+        simulation.backend().write_bytes(SPINS.name, 0, bytemuck::cast_slice(&spins)).expect("spins");
         let plans = setup.plans(machine).expect("plans");
         let kernel = plans.step.kernels.into_iter().find(|kernel| kernel.name == "contact").expect("a contact");
         // An overlap is the small difference of radii and a distance.
         stages.push(Stage::of("grains", simulation, alone(kernel)).slack(3.0));
     }
+}
+
+/// Walls of all shapes, still and swinging, that grains touch, some of them without mass; a centre on the axis of a tube.
+fn walls(device: &Device, stages: &mut Vec<Stage>) {
+    let word = |text: &'static str| Value::Text(text.into());
+    let vector = |x: f64, y: f64, z: f64| Value::Vector(DVec3::new(x, y, z));
+    let sticky = [("rolling_friction", number(0.3)), ("torsional_friction", number(0.2))];
+    let plane = [("shape", word("plane")), ("normal", vector(0.3, -0.2, 0.9))];
+    let block = [("shape", word("box")), ("size", vector(1.2, 0.9, 1.4)), ("species", number(1.0))];
+    let container = [("shape", word("box")), ("size", vector(2.5, 2.0, 1.75)), ("inside", Value::Flag(true))];
+    let ball = [("shape", word("sphere")), ("radius", number(1.5)), ("inside", Value::Flag(true))];
+    let capsule = [("shape", word("capsule")), ("radius", number(0.5)), ("axis", vector(0.3, 0.8, -0.2))];
+    let cone = [
+        ("shape", word("cone")),
+        ("radius", number(0.3)),
+        ("end_radius", number(1.1)),
+        ("axis", vector(0.1, -0.2, 0.9)),
+    ];
+    let tube = [
+        ("shape", word("cone")),
+        ("radius", number(0.25)),
+        ("end_radius", number(0.25)),
+        ("axis", vector(0.0, 0.0, 2.0)),
+    ];
+    let swing = [("motion", word("swing")), ("friction", number(0.2))];
+    let all = [
+        [&plane[..], &sticky].concat(),
+        [&container[..], &sticky, &swing].concat(),
+        [&container[..], &[("friction", number(0.02))]].concat(),
+        [&block[..], &swing].concat(),
+        ball.to_vec(),
+        capsule.to_vec(),
+        [&cone[..], &swing].concat(),
+        tube.to_vec(),
+    ];
+    for more in all {
+        let given = [
+            ("stiffness", number(300.0)),
+            ("tangential_stiffness", number(0.3)),
+            ("position", vector(0.125, -0.25, 0.25)),
+        ];
+        let wall: Box<dyn Component> = force("contact_wall", &[&given[..], &more].concat());
+        let mut random = Random::new(5);
+        let mut state = motes::State::default();
+        for i in 0..FEW {
+            let single = |v: DVec3| v.as_vec3().as_dvec3();
+            let mass = if i % 20 == 0 { 0.0 } else { f64::from((1.0 + 0.4 * random.next()) as f32) };
+            state.push(single(1.4 * random.vector()), single(random.vector()), mass, 0.01);
+        }
+        state.species_mut().copy_from_slice(&support::species(FEW));
+        state.motions = vec![choices::swing()];
+        let columns = [wall.columns(), wall.own_columns(0)].concat();
+        support::columns::give(&mut state, &columns, 7);
+        let radii = (0..FEW).map(|i| 0.4375 + 0.015_625 * (i % 5) as f64).collect();
+        state.set("radius", Array::Float(radii)).expect("radii");
+        let (bounds, solver) = (Bounds::default(), Solver::default());
+        let setup =
+            Setup { state, forces: vec![wall], integrator: integrator("leapfrog"), dt: 1.0 / 256.0, bounds, solver };
+        let machine = simulation_at(device, &setup, 0).backend().machine();
+        let plans = setup.plans(machine).expect("plans");
+        for kernel in plans.step.kernels.into_iter().filter(|kernel| kernel.name.contains("wall")) {
+            stages.push(Stage::of("wall", simulation_at(device, &setup, 3), alone(kernel)).slack(6.0));
+        }
+    }
+}
+
+fn simulation_at(device: &Device, setup: &Setup, steps: u32) -> Simulation<Gpu> {
+    let mut gpu = Gpu::new(&device.0, &device.1, few()).expect("a GPU");
+    gpu.pad(5);
+    let mut simulation = Simulation::on(gpu, setup).expect("a simulation");
+    simulation.step(steps).expect("steps");
+    // Some exactly on the axis and on the surface of the tube, on its way up.
+    let mut places = pollster::block_on(simulation.read(POSITION)).expect("places");
+    for (i, x) in [(7, 0.125), (8, 0.375), (9, 0.375), (10, 0.125)] {
+        places[i] = Vec4::new(x, -0.25, 0.5 - 0.03125 * i as f32, places[i].w);
+    }
+    simulation.backend().write_bytes(POSITION.name, 0, bytemuck::cast_slice(&places)).expect("places");
+    simulation
 }
 
 /// Each kernel of a thermostat, where some particles are fixed and one has no mass; and one that has nothing to regulate.
@@ -248,6 +385,7 @@ pub fn all(shared: &Shared, device: &Device, stages: &mut Vec<Stage>) {
     choices::ATOMS.into_iter().for_each(|name| atoms(name, device, stages));
     // A list of neighbours has more layers than few workgroups allow.
     grains(&pollster::block_on(support::limited(shared, |_| {})), stages);
+    walls(device, stages);
     thermostats(device, stages);
     baths(device, stages);
     relaxation(device, stages);

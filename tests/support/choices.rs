@@ -8,8 +8,9 @@ use motes::motion::{Keyframe, Motion};
 use motes::settings::{Key, Kind, Pair, Settings, Value};
 
 /// Forces of several searches in a row, which take up what those before them left: they have tests of their own, in
-/// `tests/physics/fluids` and `tests/mutants/fluids.rs`.
-const OWN: [&str; 1] = ["fluid"];
+/// `tests/physics/fluids` and `tests/mutants/fluids.rs`. Walls have no laws, and history: `tests/physics/matter` and
+/// `tests/mutants/matter.rs`.
+const OWN: [&str; 2] = ["fluid", "contact_wall"];
 
 /// Forces that want other states than a cloud of points: atoms apart, spheres that touch. `tests/physics/matter`,
 /// `tests/physics/molecular` and `tests/mutants/matter.rs` have these.

@@ -123,7 +123,7 @@ impl Step<'_> {
         self.clear_sums(true);
         let mut plan = Plan::default();
         for (place, _) in self.carrying().iter().enumerate().filter(|(_, carries)| **carries) {
-            let stage = Stage::Carry { earlier: self.earlier(place) };
+            let stage = Stage::Carry { earlier: component::earlier(self.forces, place) };
             if self.error.is_none() {
                 self.error = self.forces[place].stage(stage, &mut plan, &self.problem).err();
             }

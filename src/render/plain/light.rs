@@ -79,6 +79,7 @@ fn into(shape: &Shape, o: DVec3, d: DVec3) -> Option<(f64, DVec3)> {
         Shape::Ball { radius } => into_round(radius, 0.0, o, d),
         Shape::Capsule { radius, half } => into_round(radius, half, o, d),
         Shape::Box { half } => into_box(half, o, d),
+        Shape::Cone { .. } => None,
         Shape::Plane => (d.z < 0.0).then(|| (-o.z / d.z, DVec3::Z)),
     }
 }

@@ -17,24 +17,24 @@ const STIFFNESS: f64 = 5000.0;
 
 /// A sphere.
 #[derive(Clone, Copy)]
-struct Grain {
-    position: DVec3,
-    velocity: DVec3,
-    spin: DVec3,
-    mass: f64,
-    radius: f64,
+pub struct Grain {
+    pub position: DVec3,
+    pub velocity: DVec3,
+    pub spin: DVec3,
+    pub mass: f64,
+    pub radius: f64,
     /// Its moment of inertia, as a part of m R²: 2 / 5, or 0 where it does not turn.
-    inertia: f64,
+    pub inertia: f64,
 }
 
-const GRAIN: Grain =
+pub const GRAIN: Grain =
     Grain { position: DVec3::ZERO, velocity: DVec3::ZERO, spin: DVec3::ZERO, mass: 1.0, radius: 0.5, inertia: 0.4 };
 
-fn state(grains: &[Grain]) -> State {
+pub fn state(grains: &[Grain]) -> State {
     let mut state = State::default();
     grains.iter().for_each(|grain| state.push(grain.position, grain.velocity, grain.mass, grain.radius));
     let all = |of: &dyn Fn(&Grain) -> DVec3| Array::Vec3(grains.iter().map(of).collect());
-    for column in contact(&[]).columns() {
+    for column in contact::<f64>(&[]).columns() {
         state.declare(&column).expect("a column");
     }
     state.set("radius", Array::Float(grains.iter().map(|grain| grain.radius).collect())).expect("radii");
@@ -44,17 +44,17 @@ fn state(grains: &[Grain]) -> State {
     state
 }
 
-fn contact(more: &[(&'static str, f64)]) -> Box<dyn motes::forces::Component> {
-    let given = [("range", 2.0), ("stiffness", STIFFNESS)];
-    let settings: Vec<_> = given.iter().chain(more).map(|(name, x)| (*name, Value::Number(*x))).collect();
-    force("contact", &settings)
+fn contact<T: Clone + Into<Value>>(more: &[(&'static str, T)]) -> Box<dyn motes::forces::Component> {
+    let given = [("range", 2.0), ("stiffness", STIFFNESS)].map(|(name, x)| (name, Value::Number(x)));
+    let more = more.iter().map(|(name, x)| (*name, x.clone().into()));
+    force("contact", &given.into_iter().chain(more).collect::<Vec<_>>())
 }
 
-fn grains(all: &[Grain], more: &[(&'static str, f64)], dt: f64) -> Setup {
+fn grains<T: Clone + Into<Value>>(all: &[Grain], more: &[(&'static str, T)], dt: f64) -> Setup {
     setup(state(all), vec![contact(more)], Bounds::default(), dt)
 }
 
-fn after(setup: &Setup, time: f64) -> State {
+pub fn after(setup: &Setup, time: f64) -> State {
     let mut simulation = on_cpu(setup);
     simulation.step((time / setup.dt).round() as u32).expect("steps");
     block_on(simulation.snapshot()).expect("a state")
@@ -192,14 +192,33 @@ fn heap(count: usize) -> Vec<Grain> {
 /// rounding, while energy is lost.
 #[test]
 fn grains_keep_their_momenta_and_lose_energy() {
-    let all = grains(&heap(27), &[("friction", 0.4)], 1e-3);
+    keeps_momenta(&grains(&heap(27), &[("friction", 0.4)], 1e-3));
+}
+
+/// The same where rolling and torsion are resisted, by springs and by a constant torque: what one turns by, the other turns back.
+#[test]
+fn resistance_to_rolling_keeps_momenta() {
+    for model in ["elastic_plastic", "constant"] {
+        keeps_momenta(&grains(&heap(27), &sticky(model), 1e-3));
+    }
+}
+
+/// Hertz's model with resistance to rolling and torsion.
+fn sticky(rolling: &'static str) -> Vec<(&'static str, Value)> {
+    let numbers =
+        [("friction", 0.4), ("young_modulus", 30_000.0), ("rolling_friction", 0.2), ("torsional_friction", 0.3)];
+    let numbers = numbers.map(|(name, x)| (name, Value::Number(x)));
+    [("model", "hertz".into()), ("rolling_model", rolling.into())].into_iter().chain(numbers).collect()
+}
+
+fn keeps_momenta(all: &Setup) {
     let energy = |state: &State| -> f64 {
         let linear: f64 = state.velocity().iter().zip(state.mass()).map(|(v, m)| m * v.length_squared()).sum();
         let (spins, moments) =
             (state.vector("angular_velocity").expect("spins"), state.vector("inertia").expect("moments"));
         0.5 * (linear + spins.iter().zip(moments).map(|(w, i)| (*i * *w).dot(*w)).sum::<f64>())
     };
-    let end = after(&all, 1.0);
+    let end = after(all, 1.0);
     let (start, now) = (momenta(&all.state), momenta(&end));
     for (start, now) in start.into_iter().zip(now) {
         // A thousand steps of 27 terms of size 10, rounded by 1e-16: 1e-12, tenfold.
@@ -209,7 +228,7 @@ fn grains_keep_their_momenta_and_lose_energy() {
         end.vector("angular_velocity").expect("spins")[13] - all.state.vector("angular_velocity").expect("spins")[13];
     assert!(turned.length() > 0.1, "{turned}");
     // Springs that were compressed at the start have opened.
-    let later = after(&all, 2.0);
+    let later = after(all, 2.0);
     assert!(energy(&later) <= energy(&end) + 1e-9, "{} {}", energy(&later), energy(&end));
 }
 
@@ -235,12 +254,75 @@ fn contacts_agree_with_their_reference() {
     }
 }
 
+/// Both models of rolling, with torsion, by Hertz, and a table of species.
+#[test]
+fn grains_that_stick_agree_with_their_reference() {
+    for model in ["elastic_plastic", "constant"] {
+        let keys = motes::forces::entry("contact").expect("it").keys;
+        let pairs = keys.iter().find(|key| key.name == "pairs").expect("pairs");
+        let motes::settings::Kind::Pairs(pairs) = pairs.kind else { panic!("pairs") };
+        let table = ("pairs", Value::Pairs(crate::support::choices::table(pairs)));
+        let more: Vec<_> = sticky(model).into_iter().chain([("range", 1.0.into()), table]).collect();
+        let mut setup = grains(&heap(333), &more, 1.0 / 512.0);
+        setup.state.species_mut().copy_from_slice(&crate::support::species(333));
+        // As above; the root of an overlap and the stiffness of the rolling spring lose one digit more.
+        agrees(&setup, 4, 10.0, &["contact"]);
+    }
+}
+
+/// Of two materials the pair is that of springs in series, and its coefficients are geometric means, unless a row gives it.
+#[test]
+fn unlike_grains_touch_by_both_materials() {
+    let row = |species: [u32; 2], friction: f64, stiffness: f64| {
+        let named = [
+            "stiffness",
+            "young_modulus",
+            "poisson_ratio",
+            "restitution",
+            "friction",
+            "rolling_friction",
+            "torsional_friction",
+        ];
+        let value = |name: &str| match name {
+            "friction" => friction,
+            "stiffness" => stiffness,
+            _ => 1.0,
+        };
+        motes::settings::Pair { species, values: named.map(|name| (name.to_owned(), value(name))).to_vec() }
+    };
+    let push = |rows: Vec<motes::settings::Pair>| {
+        let mut two = [GRAIN, GRAIN];
+        two[1].position = DVec3::X * 0.9;
+        let mut all = grains(&two, &[("pairs", Value::Pairs(rows))], 1e-4);
+        all.state.species_mut().copy_from_slice(&[0, 1]);
+        after(&all, 1e-4).velocity()[1].x
+    };
+    let alike = push(Vec::new());
+    let mixed = push(vec![row([0, 0], 1.0, 1.0), row([1, 1], 1.0, 0.25)]);
+    // 2 · 1 · 0.25 / 1.25, but for what half a step of damping takes.
+    assert!((mixed / alike - 0.4).abs() < 0.01, "{mixed} {alike}");
+    let given = push(vec![row([0, 0], 1.0, 1.0), row([1, 1], 1.0, 0.25), row([1, 0], 1.0, 2.0)]);
+    assert!((given / alike - 2.0).abs() < 0.01, "{given} {alike}");
+    let bounds = Bounds::default();
+    let beyond = motes::settings::Pair { species: [0, 0], values: row([0, 0], 1.0, 1.0).values };
+    let beyond = motes::settings::Pair {
+        values: beyond
+            .values
+            .into_iter()
+            .map(|(name, x)| if name == "restitution" { (name, 1.5) } else { (name, x) })
+            .collect(),
+        ..beyond
+    };
+    let wrong = contact(&[("pairs", Value::Pairs(vec![beyond]))]).check(&bounds).expect_err("1.2").to_string();
+    assert!(wrong.contains("restitution is 1.2"), "{wrong}");
+}
+
 #[test]
 fn radii_beyond_the_range_are_refused() {
     let mut two = [GRAIN, GRAIN];
     two[1].position = DVec3::X * 5.0;
     two[1].radius = 1.5;
-    let all = grains(&two, &[], 0.01);
+    let all = grains::<f64>(&two, &[], 0.01);
     match Simulation::on(Cpu::new(2).expect("two"), &all).map(|_| ()) {
         Err(Error::Scene(why)) => {
             assert!(
@@ -251,5 +333,5 @@ fn radii_beyond_the_range_are_refused() {
         other => panic!("{other:?}"),
     }
     two[1].radius = 1.0;
-    assert!(Simulation::on(Cpu::new(2).expect("two"), &grains(&two, &[], 0.01)).is_ok());
+    assert!(Simulation::on(Cpu::new(2).expect("two"), &grains::<f64>(&two, &[], 0.01)).is_ok());
 }

@@ -9,6 +9,7 @@
 mod grains;
 mod ions;
 mod thermostat;
+mod walls;
 
 use crate::support::states::integrator;
 use glam::DVec3;

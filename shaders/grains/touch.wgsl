@@ -1,0 +1,74 @@
+// A contact of two spheres, or of one with a wall, that overlap by δ: n leads out of the sphere, v and ω are its velocity at the contact and its
+// angular velocity relative to the other, R = R₁ R₂ / (R₁ + R₂), m = m₁ m₂ / (m₁ + m₂).
+//   stiffness   linear: S = k, N = S δ (Cundall & Strack 1979);  Hertz: S = 2 E √(R δ), N = 2/3 S δ (Hertz 1882)
+//   normal      F = −(N + γ v·n) n,  γ = c √(S m),  c = 2 ζ, by Hertz 2 √(5/6) ζ (Tsuji et al. 1992),  ζ = −ln e / √(π² + ln² e)
+//   tangential  F = −kₜ ξ − γₜ vₜ,  ξ' = vₜ,  kₜ ∝ S,  γₜ ∝ γ,  |F| ≤ μ (N + γ v·n): at the limit it slides, and ξ is set to give that force
+//   rolling     τ = −kᵣ ψ − γᵣ ωᵣ,  ψ' = ωᵣ,  kᵣ = 2.25 N / δ (μᵣ R)²,  |τ| ≤ μᵣ R (N + γ v·n), where ψ is set to give that torque
+//               (Ai et al. 2011);  or of constant size, τ = −μᵣ R (N + γ v·n) ωᵣ / |ωᵣ|
+//   torsion     the same about n, with μₜ, always by a spring
+struct Pair {
+    @size(8) unused_word: u32,
+    stiffness: f32, damping: f32, friction: f32, shear: f32, drag: f32,
+    rolling: f32, rolling_damping: f32, torsion: f32, hertz: u32, elastic: u32,
+}
+// `rest` is the moment about the contact of what rolls there.
+struct Meeting { n: vec3f, overlap: f32, v: vec3f, radius: f32, spin: vec3f, mass: f32, rest: f32 }
+// What a contact keeps from step to step: ξ, ψ across n, and ψ about n.
+struct Wound { slide: vec3f, roll: vec3f, twist: f32 }
+// `turn` is the torque beside that of the tangential force.
+struct Touch { push: vec3f, turn: vec3f, wound: Wound }
+
+fn touch(pair: Pair, at: Meeting, last: Wound) -> Touch {
+    let n = at.n;
+    let hertz = pair.hertz > 0u;
+    let stiffness = pair.stiffness * select(1.0, sqrt(at.radius * at.overlap), hertz);
+    let secant = select(1.0, 0.6666667, hertz) * stiffness;
+    let damping = pair.damping * sqrt(stiffness * at.mass);
+    let approach = dot(at.v, n);
+    let slide = at.v - approach * n;
+    let normal = secant * at.overlap + damping * approach;
+    // Where damping pulls, there is nothing to rub on.
+    let pressed = max(normal, 0.0);
+
+    let limit = pair.friction * pressed;
+    let spring = pair.shear * stiffness;
+    let drag = (pair.drag * damping) * slide;
+    var wound = last.slide - dot(last.slide, n) * n + world.dt * slide;
+    var tangential = -spring * wound - drag;
+    let size = length(tangential);
+    if size > limit {
+        tangential *= limit / size;
+        if spring > 0.0 { wound = -(tangential + drag) / spring; }
+    }
+
+    let about = dot(at.spin, n);
+    let rolls = at.spin - about * n;
+    var roll = vec3f();
+    var turn = vec3f();
+    let rolling_limit = pair.rolling * at.radius * pressed;
+    let sprung = pair.elastic > 0u;
+    if sprung && pair.rolling > 0.0 {
+        let arm = 1.5 * pair.rolling * at.radius;
+        let back = secant * arm * arm;
+        roll = last.roll - dot(last.roll, n) * n + world.dt * rolls;
+        turn = -back * roll - (2.0 * pair.rolling_damping * sqrt(back * at.rest)) * rolls;
+        let most = length(turn);
+        if most > rolling_limit {
+            turn *= rolling_limit / most;
+            roll = -turn / back;
+        }
+    } else {
+        let speed = length(rolls);
+        if speed > 0.0 { turn = (-rolling_limit / speed) * rolls; }
+    }
+
+    var twist = 0.0;
+    if pair.torsion > 0.0 {
+        let arm = 1.5 * pair.torsion * at.radius;
+        let back = secant * arm * arm;
+        let most = pair.torsion * at.radius * pressed / back;
+        twist = clamp(last.twist + world.dt * about, -most, most);
+        turn -= (back * twist) * n;
+    }
+    return Touch(tangential - normal * n, turn, Wound(wound, roll, twist));
+}

@@ -1,0 +1,33 @@
+//! Granular matter: spheres that push, rub, roll and twist where they touch.
+//!
+//! A contact has conventions that differ between codes. Here:
+//! * the overlap δ is what the radii exceed the distance by, and the contact lies in its middle: the torque arm is R − δ / 2 (the other choice: R);
+//! * forces use the velocities of the evaluation, which are those of the half step under kicks and drifts;
+//! * a contact ends where δ = 0. Near its end damping may pull; this is not cut, so that the coefficient of restitution is exact. The
+//!   limits of friction, rolling and torsion are those of the normal force where it pushes, and 0 where it pulls;
+//! * the tangential spring ξ is projected onto the tangent plane and keeps its length there otherwise. It is not reduced when the
+//!   normal force decreases: its stiffness is the present one, so that its force decreases with the overlap;
+//! * at Coulomb's limit ξ is set so that spring and damper together give the limit; at that of rolling ψ is, by the spring alone;
+//! * history begins with zeros when a contact begins.
+
+mod material;
+mod touch;
+mod wall;
+
+pub(crate) use material::{
+    FRICTION, MODEL, NAMES, PAIRS, POISSON, RESTITUTION, ROLLING, ROLLING_DAMPING, ROLLING_MODEL, STIFFNESS,
+    TANGENTIAL_DAMPING, TANGENTIAL_STIFFNESS, TORSION, YOUNG, check, mixed,
+};
+pub use material::{Material, Model};
+pub use touch::{Meeting, Touch, WORDS, Wound, moment, reduced};
+pub use wall::{Surface, own};
+
+use crate::kernel::{Column, Kind};
+use crate::rotation;
+
+/// The columns of grains: those of rigid bodies, and a radius, beside the angular velocity in its buffer.
+#[must_use]
+pub fn columns() -> Vec<Column> {
+    let radius = Column::new("radius", Kind::Scalar, "length", "of the sphere that others touch");
+    [rotation::columns(), vec![radius.within("angular_velocity", 3).required()]].concat()
+}
