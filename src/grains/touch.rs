@@ -135,7 +135,7 @@ mod tests {
     };
     use crate::settings::{Key, Settings, Value};
 
-    const KEYS: [Key; 12] = [
+    static KEYS: [Key; 12] = [
         MODEL,
         STIFFNESS,
         YOUNG,

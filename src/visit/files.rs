@@ -4,7 +4,7 @@ use super::{Law, Over};
 use crate::kernel::{Problem, Source};
 
 /// Files that are joined with a law that calls a function of theirs and does not define it.
-const ON_CALL: [(&str, Source); 9] = [
+const ON_CALL: [(&str, Source); 10] = [
     ("is_of", crate::shader!("law/species.wgsl")),
     ("unit", crate::shader!("law/steering.wgsl")),
     ("truncated", crate::shader!("law/steering.wgsl")),
@@ -14,6 +14,7 @@ const ON_CALL: [(&str, Source); 9] = [
     ("circle", crate::shader!("law/circle.wgsl")),
     ("pair_index", crate::shader!("law/pair_index.wgsl")),
     ("ended", crate::shader!("law/truncation.wgsl")),
+    ("touch", crate::shader!("grains/touch.wgsl")),
 ];
 
 impl Law {

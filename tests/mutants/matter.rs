@@ -76,7 +76,7 @@ pub const EQUIVALENT: &[Equivalent] = &[
     ),
     same(
         "contact_wall.wgsl",
-        "    return 0.0;",
+        "return 0.0;",
         "0.0",
         "1.0",
         "a word that is not kept belongs to a spring without stiffness",
