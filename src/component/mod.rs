@@ -14,6 +14,7 @@ pub(crate) use registered::registered;
 use glam::{DVec3, Vec4};
 
 use crate::error::Error;
+use crate::grains::Material;
 use crate::kernel::{Bounds, Column, Plan, Problem, Way};
 use crate::neighbors::Grid;
 use crate::settings::{Key, Settings, Value};
@@ -179,6 +180,8 @@ pub struct Properties {
     pub fixed_step: Option<&'static str>,
     /// Whether it has history that each evaluation advances by a step, beside that of its laws.
     pub history: bool,
+    /// The materials with which particles touch.
+    pub touches: Vec<Material>,
     /// Whether it breaks bonds.
     pub breaks_bonds: bool,
     /// Whether it is evaluated after all others, wherever it is in the scene.

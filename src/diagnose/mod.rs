@@ -7,6 +7,7 @@ mod contradictions;
 mod far;
 mod flow;
 mod fluid;
+mod grains;
 mod jumps;
 mod rounding;
 mod solves;
@@ -127,6 +128,7 @@ impl Judged {
             lines.extend(flow::line(&flow, setup.dt));
             remarks.extend(flow::warning(&flow, setup)?);
         }
+        remarks.extend(grains::remarks(setup));
         let verdict = Verdict::of(setup, &build, steps).await?;
         Ok(Self { verdict, start, lines, remarks })
     }

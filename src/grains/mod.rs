@@ -11,6 +11,7 @@
 //! * history begins with zeros when a contact begins.
 
 mod material;
+mod pairs;
 mod touch;
 mod wall;
 
@@ -19,6 +20,7 @@ pub(crate) use material::{
     TANGENTIAL_DAMPING, TANGENTIAL_STIFFNESS, TORSION, YOUNG, check, mixed,
 };
 pub use material::{Material, Model};
+pub use pairs::{Pair, touching};
 pub use touch::{Meeting, Touch, WORDS, Wound, moment, reduced};
 pub use wall::{Surface, own};
 

@@ -119,7 +119,8 @@ impl Material {
         if self.torsion > 0.0 {
             let back = secant * (1.5 * self.torsion * at.radius).powi(2);
             let most = self.torsion * at.radius * pressed / back;
-            twist = (last.twist + dt * at.spin.dot(n)).clamp(-most, most);
+            // No clamp, which panics where a limit is no number.
+            twist = (last.twist + dt * at.spin.dot(n)).min(most).max(-most);
             turn -= back * twist * n;
         }
         Touch { push: tangential - normal * n, turn, wound: Wound { slide, roll, twist } }

@@ -120,6 +120,7 @@ impl Component for ContactWall {
             constrains: true,
             turns: true,
             history: true,
+            touches: vec![Material::of(&self.0)],
             pictured: Some(Standing { solid: self.shape(), position, motion, inside }),
             ..Properties::default()
         }

@@ -70,6 +70,7 @@ macro_rules! register {
 register! {
     energy
     flock
+    granular
     fluid
     population
     thermo

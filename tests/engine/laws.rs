@@ -141,7 +141,10 @@ fn every_key_is_read() {
         let cloud = crate::support::cloud(100, 3);
         // Some with accelerations of a step before, and some without: by them, or by angles alone, a tree decides what is far.
         let before: Vec<_> = cloud.position().iter().map(|x| DVec4::X * if x.x > 0.0 { 0.3 } else { 0.0 }).collect();
-        let at = |settings: &Settings| evaluated_after(&[(entry.build)(settings)], &cloud, world, &before);
+        let at = |settings: &Settings| {
+            let force = || [(entry.build)(settings)];
+            (evaluated_after(&force(), &cloud, world, &before), torques(&force(), &cloud, TIME))
+        };
         // What wants a box of its own has tests of its own.
         for key in entry.keys.iter().filter(|key| !matches!(key.kind, Kind::Choice(["nearest", "ewald"]))) {
             assert!(

@@ -136,6 +136,11 @@ pub fn numbers(column: &Column, count: usize, seed: u64) -> Array {
         Kind::Vector if column.name == "inertia" => {
             Array::Vec4((0..len).map(|_| single(DVec4::splat(1.6) + vector())).collect())
         }
+        // Beside it lies the radius of a grain.
+        Kind::Vector if column.name == "angular_velocity" => {
+            let mut both = || vector() * DVec4::new(1.0, 1.0, 1.0, 0.1) + 0.25 * DVec4::W;
+            Array::Vec4((0..len).map(|_| single(both())).collect())
+        }
         Kind::Vector => Array::Vec4((0..len).map(|_| single(vector())).collect()),
         Kind::Whole => panic!("no column here counts"),
     }
