@@ -55,6 +55,7 @@ pub mod forces;
 #[doc(hidden)]
 pub mod formats;
 pub mod gpu;
+#[doc(hidden)]
 pub mod grains;
 pub mod integrators;
 #[doc(hidden)]

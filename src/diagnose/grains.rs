@@ -89,7 +89,7 @@ fn overlaps(setup: &Setup, radii: &[f64]) -> Option<Remark> {
          they fly apart"
     );
     let remark = Remark::warning("overlap", text).with("pairs", many as f64).with("overlap", part);
-    let way = "start with grains that do not touch, as of the shape grains, and let them settle";
+    let way = "start with grains that do not touch, and let them settle";
     Some(remark.with("particle", i as f64).with("other", j as f64).advice(way))
 }
 
