@@ -4,6 +4,7 @@ mod series;
 
 use std::fmt::{self, Debug};
 
+pub use diffusion::Diffusion;
 pub use energy::{Energies, Energy};
 pub use flock::{Flock, Flocks};
 pub use fluid::{Book, Ledger};
@@ -76,6 +77,7 @@ register! {
     thermo
     pressure
     rdf
+    diffusion
     probe
 }
 

@@ -61,4 +61,5 @@ pub const SCENES: &[Builtin] = scenes![
     "murmuration",
     "salt",
     "argon",
+    "vapour",
 ];

@@ -43,6 +43,17 @@ typed! {
         /// Constrained degrees of freedom: 3 where forces conserve the total momentum, and it is 0.
         removed: u64,
     }
+    /// A thermostat: the kinetic energy relaxes and fluctuates as it does in a heat bath, by one random factor for all velocities (Bussi, Donadio & Parrinello 2007).
+    Csvr "csvr" csvr(temperature: f64) {
+        /// K T, twice the mean kinetic energy of a degree of freedom \[energy\].
+        temperature: f64,
+        /// τ, the relaxation time of the kinetic energy \[time\].
+        time: f64,
+        /// Whether the motion of the centre of mass is heat; say false where forces conserve the total momentum, and it is 0.
+        drift: bool,
+        /// Seed of the random numbers, counted by id and step.
+        seed: u64,
+    }
     /// Springs that are stretched too far break permanently.
     Tear "tear" tear() {
         /// The strain at which a spring breaks: its extension over its rest length.

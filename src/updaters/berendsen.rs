@@ -18,7 +18,13 @@ pub const KEYS: &[Key] = &[
 ];
 
 /// What it has given to particles.
-const HEAT: Field<f32> = Field::new("thermostat_heat");
+pub(super) const HEAT: Field<f32> = Field::new("thermostat_heat");
+
+/// Its column.
+pub(super) fn heat() -> Column {
+    let about = "what the thermostat has given to particles";
+    Column::new(HEAT.name, Element::Scalar, "energy", about).shaped(Shape::System(1))
+}
 
 /// `berendsen`: at the end of each step all velocities are scaled by one factor, so that the temperature relaxes to the given one within τ
 /// (Berendsen et al., J. Chem. Phys. 81, 3684, 1984). For equilibration only: the kinetic energy hardly fluctuates, so that no ensemble is
@@ -68,8 +74,7 @@ impl Berendsen {
 
 impl Component for Berendsen {
     fn columns(&self) -> Vec<Column> {
-        let about = "what the thermostat has given to particles";
-        vec![Column::new(HEAT.name, Element::Scalar, "energy", about).shaped(Shape::System(1))]
+        vec![heat()]
     }
     fn properties(&self) -> Properties {
         Properties { constrains: true, ..Properties::default() }

@@ -10,5 +10,6 @@ components! {
     langevin: Langevin, "a heat bath with friction and noise on every particle (Langevin 1908, Bussi & Parrinello 2007)";
     andersen: Andersen, "a heat bath with which particles collide at random (Andersen 1980)";
     berendsen: Berendsen, "the temperature relaxes to a given one; for equilibration only (Berendsen et al. 1984)";
+    csvr: Csvr, "a thermostat: the kinetic energy relaxes and fluctuates as it does in a heat bath, by one random factor for all velocities (Bussi, Donadio & Parrinello 2007)";
     tear: Tear, "springs that are stretched too far break permanently";
 }

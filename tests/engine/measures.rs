@@ -285,3 +285,37 @@ fn what_cannot_be_measured_is_refused() {
         assert!(text.contains(why), "{text}");
     }
 }
+
+/// Free particles go straight on through the sides of their box, and keep their velocities.
+#[test]
+fn displacements_are_not_interrupted_by_sides() {
+    let mut state = State::default();
+    let velocities = [DVec3::new(1.0, 2.0, -1.5), DVec3::new(-3.0, 0.0, 0.25)];
+    velocities.iter().for_each(|v| state.push(DVec3::ONE, *v, 1.0, 0.0));
+    let bounds = periodic(DVec3::splat(2.0));
+    let refused = rows("diffusion", &state, bounds, &[]).expect_err("no column").to_string();
+    assert!(refused.contains("add [[column]] with name = \"displacement\""), "{refused}");
+    let column = motes::Column::new("displacement", motes::Kind::Vector, "length", "").with_rate("velocity");
+    state.declare(&column).expect("a column");
+    // A run may go on from a state that has gone some way.
+    state.set("displacement", Array::Vec3(vec![DVec3::splat(0.5); 2])).expect("a column");
+    let setup = setup(&state, bounds);
+    let settings = Settings::defaults(measure("diffusion").expect("it").keys);
+    let mut series = (measure("diffusion").expect("it").begin)(&setup, &settings).expect("a series");
+    let cpu = motes::Cpu::new(setup.check().expect("a setup")).expect("threads");
+    let mut simulation = motes::Simulation::on(cpu, &setup).expect("a simulation");
+    for steps in [0, 40] {
+        simulation.step(steps).expect("steps");
+        let state = Arc::new(pollster::block_on(simulation.snapshot()).expect("a state"));
+        let moment = Moment { state: &state, density: &[], clock: None, links: None, virial: None };
+        let row = series.take(&moment).expect("a row");
+        let t = 0.1 * f64::from(steps);
+        // ½ (1 + 9), ½ (4 + 0) and ½ (2.25 + 0.0625)
+        let want = [8.15625 * t * t, 5.0 * t * t, 2.0 * t * t, 1.15625 * t * t, 8.15625];
+        for (cell, want) in want.into_iter().enumerate() {
+            assert!((numbers(&row, cell)[0] - want).abs() < 1e-10, "{cell}: {:?} is not {want}", row[0][cell]);
+        }
+        let coefficient = numbers(&row, 5)[0];
+        assert!(if steps == 0 { coefficient.is_nan() } else { (coefficient - 8.15625 * t / 6.0).abs() < 1e-10 });
+    }
+}

@@ -19,6 +19,11 @@ const ALWAYS_SET: &str = "the host sets every override";
 const EDGE: &str = "no pair lies exactly at the edge";
 
 pub const EQUIVALENT: &[Equivalent] = &[
+    same("csvr.wgsl", "override REMOVED: f32 = 0.0;", "0.0", "1.0", ALWAYS_SET),
+    same("csvr.wgsl", "override TEMPERATURE: f32 = 1.0;", "1.0", "1.5", ALWAYS_SET),
+    same("csvr.wgsl", "override TIME: f32 = 1.0;", "1.0", "1.5", ALWAYS_SET),
+    same("csvr_noise.wgsl", "override SEED_LOW: u32 = 1u;", "1u", "2u", ALWAYS_SET),
+    same("csvr_noise.wgsl", "override SEED_HIGH: u32 = 0u;", "0u", "1u", ALWAYS_SET),
     same(
         "virial.wgsl",
         "let force = me.mass * (pair_finish(me, pair)",
@@ -381,6 +386,53 @@ fn relaxation(device: &Device, stages: &mut Vec<Stage>) {
     }
 }
 
+/// A thermostat of random factors: its noise, and factors at chosen sums, one of which turns velocities.
+fn rescaling(device: &Device, stages: &mut Vec<Stage>) {
+    let held = [3, 64, 130].map(|id| Held { id, by: Hold::Fixed });
+    for (time, drift, held) in [(0.03, false, &held[..]), (0.0004, true, &[]), (0.004, true, &[])] {
+        let settings = [
+            ("temperature", number(0.7)),
+            ("time", number(time)),
+            ("drift", Value::Flag(drift)),
+            ("seed", number(12_884_901_895.0)),
+        ];
+        let thermostat: Box<dyn Component> = force("csvr", &settings);
+        let columns = Columns::with(thermostat.columns()).expect("columns");
+        let problem =
+            Problem::new(few(), Machine::HOST).tied(&motes::links::Links::default(), held).of_columns(columns);
+        let mut plan = Plan::default();
+        thermostat.stage(Of::EndOfStep, &mut plan, &problem).expect("an end");
+        for kernel in plan.kernels {
+            if kernel.name == "csvr noise" {
+                let mut simulation = moving(device, FEW, None);
+                let mut places = pollster::block_on(simulation.read(POSITION)).expect("places");
+                places[13].w = 0.0;
+                simulation.write(POSITION, &places).expect("places");
+                let plan = alone(kernel);
+                fill(&mut simulation, &plan);
+                stages.push(Stage::of("csvr noise", simulation, plan));
+            } else if kernel.names("thermostat_heat") {
+                for total in [150.0_f32, 0.0, 0.5, 3.0] {
+                    stages.push(drawn_at(device, &kernel, total));
+                }
+            }
+        }
+    }
+}
+
+fn drawn_at(device: &Device, kernel: &Kernel, twice: f32) -> Stage {
+    let mut simulation = moving(device, FEW, None);
+    let plan = alone(kernel.clone());
+    fill(&mut simulation, &plan);
+    let put = |simulation: &mut Simulation<Gpu>, name: &str, values: [f32; 4]| {
+        simulation.backend().write_bytes(name, 0, bytemuck::cast_slice(&values)).expect(name);
+    };
+    put(&mut simulation, "thermostat_total", [twice, 60.0, 0.0, 0.0]);
+    put(&mut simulation, "thermostat_noise_total", [3.0, -5.0, 2.0, 30.0]);
+    put(&mut simulation, "thermostat_work_total", [-4.0, 170.0, 0.0, 0.0]);
+    Stage::of("csvr", simulation, plan)
+}
+
 pub fn all(shared: &Shared, device: &Device, stages: &mut Vec<Stage>) {
     choices::ATOMS.into_iter().for_each(|name| atoms(name, device, stages));
     // A list of neighbours has more layers than few workgroups allow.
@@ -389,4 +441,5 @@ pub fn all(shared: &Shared, device: &Device, stages: &mut Vec<Stage>) {
     thermostats(device, stages);
     baths(device, stages);
     relaxation(device, stages);
+    rescaling(device, stages);
 }

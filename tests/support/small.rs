@@ -26,6 +26,7 @@ pub const SMALLER: &[(&str, &[&str])] = &[
     ("murmuration", &["particles.0.count=150"]),
     ("salt", &["force.0.range=5"]),
     ("argon", &["particles.0.cells=[3, 3, 3]"]),
+    ("vapour", &["particles.0.cells=[3, 3, 3]"]),
 ];
 
 /// The overrides that make a scene small; none where it is small as it is.

@@ -15,6 +15,8 @@ const SCENE: &str =
 [[measure]]\nkind = \"pressure\"\nevery = 6\n
 [[measure]]\nkind = \"rdf\"\nrange = 0.8\nbins = 4\n
 [[measure]]\nkind = \"rdf\"\nrange = 0.5\nbins = 2\nevery = \"0.05 time\"\n
+[[column]]\nname = \"displacement\"\nkind = \"vector\"\nrate = \"velocity\"\n
+[[measure]]\nkind = \"diffusion\"\nevery = 4\n
 [[measure]]\nkind = \"probe\"\nstart = [0, 0, 0]\nrange = 0.5\n
 [output]\nevery = 8\nformats = [\"npz\"]\n[checkpoint]\nevery = \"5 steps\"\n";
 
@@ -23,7 +25,10 @@ fn tables_have_their_rows_and_go_on_where_a_run_was_stopped() {
     let place = Place::with(&[("box.toml", SCENE)]);
     let (code, words) = place.run("box.toml", "out", &[]);
     assert_eq!(code, 0, "{words}");
-    assert!(words.contains("energy.csv, thermo.csv, pressure.csv, rdf.csv, rdf_2.csv, probe.csv"), "{words}");
+    assert!(
+        words.contains("energy.csv, thermo.csv, pressure.csv, rdf.csv, rdf_2.csv, diffusion.csv, probe.csv"),
+        "{words}"
+    );
     assert!(words.contains("temperature "), "{words}");
     let files = all(&place.at("out"));
     let steps = |name: &str| -> Vec<u64> {

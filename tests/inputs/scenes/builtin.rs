@@ -30,7 +30,8 @@ fn every_one_loads_and_says_what_to_see() {
         ["dam_break", "dam_break_2d", "wave_tank", "droplet", "two_drops", "hydrostatic", "taylor_green", "poiseuille"];
     assert_eq!(
         names,
-        [&bodies[..], &tied, &fluids, &["flock", "fish_school", "vicsek", "murmuration", "salt", "argon"]].concat()
+        [&bodies[..], &tied, &fluids, &["flock", "fish_school", "vicsek", "murmuration", "salt", "argon", "vapour"]]
+            .concat()
     );
     for builtin in SCENES {
         let scene = self::builtin(builtin.name);
