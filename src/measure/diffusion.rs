@@ -11,7 +11,7 @@ use crate::kernel::Kind as Element;
 use crate::settings::{Key, Kind, Value};
 
 /// The column that it reads.
-const DISPLACEMENT: &str = "displacement";
+const UNWRAPPED: &str = "unwrapped";
 
 /// `diffusion.csv`.
 pub const MEASURE: Measure = Measure {
@@ -19,7 +19,7 @@ pub const MEASURE: Measure = Measure {
     about: "how far particles have gone since the start, through the sides of a periodic box too, and how much of their velocities is left (Allen & Tildesley 2017, 8.5)",
     keys: &[Key::new("species", Kind::Species, Value::Text(Cow::Borrowed("all")), "the species that is measured, or \"all\"")],
     cells: &[
-        ("msd", "⟨|x(t) − x(0)|²⟩, of the column `displacement` [length²]"),
+        ("msd", "⟨|x(t) − x(0)|²⟩, of the column `unwrapped` [length²]"),
         ("msd_x", "its part along x [length²]"),
         ("msd_y", "along y"),
         ("msd_z", "along z"),
@@ -38,10 +38,10 @@ pub const MEASURE: Measure = Measure {
         let is_unwrapped = |column: &crate::kernel::Column| {
             column.kind == Element::Vector && column.rate.as_ref().is_some_and(|rate| rate == "velocity")
         };
-        if !columns.get(DISPLACEMENT).is_some_and(is_unwrapped) {
+        if !columns.get(UNWRAPPED).is_some_and(is_unwrapped) {
             return Err(Error::Scene(
-                "the measure `diffusion` reads displacements that no side of a box interrupts: add [[column]] with name = \"displacement\", \
-                 kind = \"vector\" and rate = \"velocity\""
+                "the measure `diffusion` reads displacements that no side of a box interrupts: add [[column]] with name = \"unwrapped\", \
+                 kind = \"vector\", rate = \"velocity\" and initial = [0, 0, 0]"
                     .to_owned(),
             ));
         }
@@ -52,7 +52,7 @@ pub const MEASURE: Measure = Measure {
             let why = "`diffusion` measures a species of which there is no particle: choose another, or \"all\"".to_owned();
             return Err(Error::Setting { key: "species", why });
         }
-        let from = state.vector(DISPLACEMENT).map_or_else(|| vec![DVec3::ZERO; state.len()], <[DVec3]>::to_vec);
+        let from = state.vector(UNWRAPPED).map_or_else(|| vec![DVec3::ZERO; state.len()], <[DVec3]>::to_vec);
         let (velocities, time) = (state.velocity().to_vec(), state.time);
         Ok(Box::new(Diffusion { chosen, from, velocities, time, dimensions: setup.bounds.dimensions, last: None }))
     },
@@ -80,8 +80,8 @@ impl Diffusion {
 impl Series for Diffusion {
     fn take(&mut self, moment: &Moment<'_>) -> Result<Vec<Row>, Error> {
         let state = moment.state;
-        let (Some(now), true) = (state.vector(DISPLACEMENT), state.len() == self.from.len()) else {
-            return Err(Error::Scene("the measure `diffusion` needs the column `displacement` of all particles".to_owned()));
+        let (Some(now), true) = (state.vector(UNWRAPPED), state.len() == self.from.len()) else {
+            return Err(Error::Scene("the measure `diffusion` needs the column `unwrapped` of all particles".to_owned()));
         };
         let count = self.chosen.len() as f64;
         let (mut squares, mut left) = (DVec3::ZERO, 0.0);

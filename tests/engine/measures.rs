@@ -71,7 +71,10 @@ fn crystal(cells: usize) -> State {
 fn tables_have_names_of_their_own_and_rows_as_long_as_their_headers() {
     let names: BTreeSet<_> = MEASURES.iter().map(|measure| measure.name).collect();
     assert_eq!(names.len(), MEASURES.len());
-    let (state, bounds) = (crystal(3), periodic(DVec3::splat(3.0)));
+    let (mut state, bounds) = (crystal(3), periodic(DVec3::splat(3.0)));
+    let unwrapped = motes::Column::new("unwrapped", motes::Kind::Vector, "length", "").with_rate("velocity");
+    state.declare(&unwrapped).expect("a column");
+    state.set("unwrapped", Array::Vec3(vec![DVec3::ZERO; state.len()])).expect("a column");
     let range = [("range", Value::Number(0.9)), ("start", Value::Vector(DVec3::ZERO))];
     for measure in MEASURES.iter().filter(|measure| measure.name != "fluid") {
         let sets: Vec<_> =
@@ -294,11 +297,11 @@ fn displacements_are_not_interrupted_by_sides() {
     velocities.iter().for_each(|v| state.push(DVec3::ONE, *v, 1.0, 0.0));
     let bounds = periodic(DVec3::splat(2.0));
     let refused = rows("diffusion", &state, bounds, &[]).expect_err("no column").to_string();
-    assert!(refused.contains("add [[column]] with name = \"displacement\""), "{refused}");
-    let column = motes::Column::new("displacement", motes::Kind::Vector, "length", "").with_rate("velocity");
+    assert!(refused.contains("add [[column]] with name = \"unwrapped\""), "{refused}");
+    let column = motes::Column::new("unwrapped", motes::Kind::Vector, "length", "").with_rate("velocity");
     state.declare(&column).expect("a column");
     // A run may go on from a state that has gone some way.
-    state.set("displacement", Array::Vec3(vec![DVec3::splat(0.5); 2])).expect("a column");
+    state.set("unwrapped", Array::Vec3(vec![DVec3::splat(0.5); 2])).expect("a column");
     let setup = setup(&state, bounds);
     let settings = Settings::defaults(measure("diffusion").expect("it").keys);
     let mut series = (measure("diffusion").expect("it").begin)(&setup, &settings).expect("a series");

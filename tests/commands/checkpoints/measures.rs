@@ -15,7 +15,7 @@ const SCENE: &str =
 [[measure]]\nkind = \"pressure\"\nevery = 6\n
 [[measure]]\nkind = \"rdf\"\nrange = 0.8\nbins = 4\n
 [[measure]]\nkind = \"rdf\"\nrange = 0.5\nbins = 2\nevery = \"0.05 time\"\n
-[[column]]\nname = \"displacement\"\nkind = \"vector\"\nrate = \"velocity\"\n
+[[column]]\nname = \"unwrapped\"\nkind = \"vector\"\nrate = \"velocity\"\ninitial = [0, 0, 0]\n
 [[measure]]\nkind = \"diffusion\"\nevery = 4\n
 [[measure]]\nkind = \"probe\"\nstart = [0, 0, 0]\nrange = 0.5\n
 [output]\nevery = 8\nformats = [\"npz\"]\n[checkpoint]\nevery = \"5 steps\"\n";
