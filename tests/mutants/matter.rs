@@ -21,6 +21,8 @@ const EDGE: &str = "no pair lies exactly at the edge";
 pub const EQUIVALENT: &[Equivalent] = &[
     same("csvr.wgsl", "override REMOVED: f32 = 0.0;", "0.0", "1.0", ALWAYS_SET),
     same("csvr.wgsl", "override TEMPERATURE: f32 = 1.0;", "1.0", "1.5", ALWAYS_SET),
+    same("csvr.wgsl", "if REMOVED > 0.0", "0.0", "1.0", "none, or two or three"),
+    same("csvr.wgsl", "if sqrt(1.0 - lost) + along < 0.0", "<", "<=", "it is never exactly 0"),
     same("csvr.wgsl", "override TIME: f32 = 1.0;", "1.0", "1.5", ALWAYS_SET),
     same("csvr_noise.wgsl", "override SEED_LOW: u32 = 1u;", "1u", "2u", ALWAYS_SET),
     same("csvr_noise.wgsl", "override SEED_HIGH: u32 = 0u;", "0u", "1u", ALWAYS_SET),
@@ -389,7 +391,7 @@ fn relaxation(device: &Device, stages: &mut Vec<Stage>) {
 /// A thermostat of random factors: its noise, and factors at chosen sums, one of which turns velocities.
 fn rescaling(device: &Device, stages: &mut Vec<Stage>) {
     let held = [3, 64, 130].map(|id| Held { id, by: Hold::Fixed });
-    for (time, drift, held) in [(0.03, false, &held[..]), (0.0004, true, &[]), (0.004, true, &[])] {
+    for (time, drift, held) in [(3.0, false, &held[..]), (0.0004, true, &[]), (0.1, true, &[])] {
         let settings = [
             ("temperature", number(0.7)),
             ("time", number(time)),
@@ -412,15 +414,15 @@ fn rescaling(device: &Device, stages: &mut Vec<Stage>) {
                 fill(&mut simulation, &plan);
                 stages.push(Stage::of("csvr noise", simulation, plan));
             } else if kernel.names("thermostat_heat") {
-                for total in [150.0_f32, 0.0, 0.5, 3.0] {
-                    stages.push(drawn_at(device, &kernel, total));
+                for (total, work) in [(150.0_f32, -4.0), (150.0, 4.0), (0.0, 4.0), (0.5, -4.0), (3.0, 4.0)] {
+                    stages.push(drawn_at(device, &kernel, total, work));
                 }
             }
         }
     }
 }
 
-fn drawn_at(device: &Device, kernel: &Kernel, twice: f32) -> Stage {
+fn drawn_at(device: &Device, kernel: &Kernel, twice: f32, work: f32) -> Stage {
     let mut simulation = moving(device, FEW, None);
     let plan = alone(kernel.clone());
     fill(&mut simulation, &plan);
@@ -429,7 +431,7 @@ fn drawn_at(device: &Device, kernel: &Kernel, twice: f32) -> Stage {
     };
     put(&mut simulation, "thermostat_total", [twice, 60.0, 0.0, 0.0]);
     put(&mut simulation, "thermostat_noise_total", [3.0, -5.0, 2.0, 30.0]);
-    put(&mut simulation, "thermostat_work_total", [-4.0, 170.0, 0.0, 0.0]);
+    put(&mut simulation, "thermostat_work_total", [work, 170.0, 0.0, 0.0]);
     Stage::of("csvr", simulation, plan)
 }
 
