@@ -14,6 +14,9 @@ use crate::visit::{Particle, View};
 pub(crate) const TEMPERATURE: Key =
     Key::required("temperature", Kind::Positive, "k T, twice the mean kinetic energy of a degree of freedom [energy]");
 
+/// Changes the seed, so that a thermostat has other random numbers than a force with the same seed.
+const NUMBERS: u32 = 0x5EA7_BA78;
+
 /// The temperature and the seed of settings.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Bath {
@@ -23,7 +26,8 @@ pub(crate) struct Bath {
 
 impl Bath {
     pub fn of(settings: &Settings) -> Self {
-        Self { temperature: settings.number("temperature"), seed: words(settings.whole("seed")) }
+        let [low, high] = words(settings.whole("seed"));
+        Self { temperature: settings.number("temperature"), seed: [low, high ^ NUMBERS] }
     }
     /// A kernel of one invocation for each particle; `turn` gives the velocity of one that is free, active and has mass.
     pub fn kernel(
@@ -34,10 +38,16 @@ impl Bath {
         problem: &Problem,
         turn: impl Fn(&Particle, f64, &Host) -> DVec3 + Send + Sync + 'static,
     ) -> Result<Kernel, Error> {
+        if !problem.network.rods.is_empty() {
+            return Err(Error::Scene(format!(
+                "{name} gives each particle a velocity of its own, also along its rods: leave out the rods, or choose springs"
+            )));
+        }
         let (holding, tables) = problem.holding();
         let shader = Shader::join(&[
             crate::shader!("world.wgsl"),
             crate::shader!("law/random.wgsl"),
+            crate::shader!("law/circle.wgsl"),
             crate::shader!("law/normals.wgsl"),
             crate::shader!("law/decayed.wgsl"),
             problem.naming(),

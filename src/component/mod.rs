@@ -194,6 +194,8 @@ pub struct Properties {
     pub dissipates: Vec<&'static str>,
     /// The same, where some particles are fixed.
     pub dissipates_at_walls: Vec<&'static str>,
+    /// Whether it is a thermostat of all particles: a simulation has one at most.
+    pub thermostat: bool,
     /// Whether it changes the angular momentum.
     pub turns: bool,
     /// Whether it makes all particles that are not fixed a fluid.

@@ -15,7 +15,7 @@ pub const MEASURE: Measure = Measure {
     keys: &[],
     cells: &[
         ("pressure", "a third of xx + yy + zz; half of xx + yy in the plane [mass / length / time²]"),
-        ("ideal", "its part of kinetic energies, N k T / V, relative to the centre of mass [mass / length / time²]"),
+        ("ideal", "its part of kinetic energies relative to the centre of mass, (N − 1) k T / V [mass / length / time²; mass / time² in the plane, as the others]"),
         ("xx", "the momentum along x that passes an area across x [mass / length / time²]"),
         ("yy", "along y"),
         ("zz", "along z"),

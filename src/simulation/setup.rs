@@ -136,6 +136,14 @@ impl Setup {
             None => Ok(()),
         }
     }
+    /// Refuses a second thermostat.
+    fn has_one_thermostat(&self) -> Result<(), Error> {
+        let all: Vec<&str> = self.forces.iter().filter(|f| f.properties().thermostat).map(|f| f.name()).collect();
+        let [first, second, ..] = all[..] else { return Ok(()) };
+        let text =
+            if first == second { format!("{first} is there twice") } else { format!("{first} and {second} are there") };
+        Err(Error::Scene(format!("{text}, and each would regulate the same particles: remove one of them")))
+    }
     /// Refuses a tree whose nodes do not fit single precision.
     fn weigh(&self, problem: &Problem) -> Result<(), Error> {
         let walks = self.forces.iter().flat_map(|force| force.laws()).any(|law| law.tree(problem).is_some());
@@ -372,6 +380,7 @@ impl Setup {
         boundary::check(&self.bounds)?;
         motion::check(held, motions, count, self.bounds.dimensions, self.dt)?;
         life::check((life, births, drains), held, count, self.bounds.dimensions)?;
+        self.has_one_thermostat()?;
         inactive::serves(&self.state, &self.forces, self.integrator.as_ref())?;
         if !links.rods.is_empty() && !self.forces.iter().any(|force| force.properties().keeps_rods) {
             let text = format!(

@@ -71,12 +71,19 @@ impl<B: Backend> Simulation<B> {
         self.sound(&alarm)?;
         let Array::Vec4(values) = values? else { return Ok([0.0; 6]) };
         let mut sum = [0.0; 6];
-        for (row, pair) in values.chunks_exact(2).enumerate() {
+        for (row, pair) in (0..).zip(values.chunks_exact(2)) {
+            if !(pair[0].is_finite() && pair[1].is_finite()) {
+                return Err(Error::Scene(format!(
+                    "a force of a pair on particle {} is not finite, so that it has no virial: leave out what measures the pressure",
+                    self.named(row)
+                )));
+            }
             let adds_up = pair[0].w <= f64::from(ROUNDING) * pair[1].w;
             if !adds_up {
                 return Err(Error::Scene(format!(
-                    "the forces of pairs on the particle in row {row} do not add up to its force, so that they have no virial: leave out \
-                     what measures the pressure"
+                    "the forces of pairs on particle {} do not add up to its force, so that they have no virial: leave out what measures the \
+                     pressure",
+                    self.named(row)
                 )));
             }
             let parts = [pair[0].truncate().to_array(), pair[1].truncate().to_array()].concat();

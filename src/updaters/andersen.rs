@@ -35,7 +35,7 @@ impl Andersen {
 impl Component for Andersen {
     fn properties(&self) -> Properties {
         let why = "andersen has a probability of collisions of one step, whose length is fixed";
-        Properties { fixed_step: Some(why), constrains: true, ..Properties::default() }
+        Properties { fixed_step: Some(why), constrains: true, thermostat: true, ..Properties::default() }
     }
     fn stage(&self, stage: Stage, plan: &mut Plan, problem: &Problem) -> Result<(), Error> {
         if stage == Stage::EndOfStep {

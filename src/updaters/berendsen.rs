@@ -77,11 +77,11 @@ impl Component for Berendsen {
         vec![heat()]
     }
     fn properties(&self) -> Properties {
-        Properties { constrains: true, ..Properties::default() }
+        Properties { constrains: true, thermostat: true, ..Properties::default() }
     }
     fn stage(&self, stage: Stage, plan: &mut Plan, problem: &Problem) -> Result<(), Error> {
         if stage == Stage::EndOfStep {
-            serves("berendsen", self.removed, plan, problem)?;
+            serves("berendsen", self.removed, problem)?;
             measured(problem)?.into_iter().for_each(|kernel| plan.add(kernel));
             plan.add(self.relax(problem)?);
             plan.add(scale(problem)?);

@@ -56,6 +56,7 @@ impl Csvr {
         let shader = Shader::join(&[
             crate::shader!("world.wgsl"),
             crate::shader!("law/random.wgsl"),
+            crate::shader!("law/circle.wgsl"),
             crate::shader!("law/normals.wgsl"),
             problem.naming(),
             holding,
@@ -127,11 +128,11 @@ impl Component for Csvr {
     }
     fn properties(&self) -> Properties {
         let why = "csvr has noise of one step, whose length is fixed";
-        Properties { fixed_step: Some(why), constrains: true, ..Properties::default() }
+        Properties { fixed_step: Some(why), constrains: true, thermostat: true, ..Properties::default() }
     }
     fn stage(&self, stage: Stage, plan: &mut Plan, problem: &Problem) -> Result<(), Error> {
         if stage == Stage::EndOfStep {
-            serves("csvr", self.removed(problem), plan, problem)?;
+            serves("csvr", self.removed(problem), problem)?;
             measured(problem)?.into_iter().for_each(|kernel| plan.add(kernel));
             self.noise(problem)?.into_iter().for_each(|kernel| plan.add(kernel));
             plan.add(self.draw(problem)?);

@@ -15,8 +15,8 @@ pub const KEYS: &[Key] = &[
 ];
 
 /// `langevin`: at the end of each step v ← c v + √((1 − c²) k T / m) n, c = exp(−γ dt), with normal numbers n (Bussi & Parrinello, Phys. Rev. E
-/// 75, 056707, 2007). With `leapfrog` velocities have the Maxwell distribution for any stable dt, and a harmonic oscillator has
-/// ⟨x²⟩ = k T / m ω² (1 − ω² dt² / 4). The numbers are counted by id, step and seed.
+/// 75, 056707, 2007). With `leapfrog` velocities have the Maxwell distribution up to an error of order dt², and exactly in harmonic
+/// forces, where ⟨x²⟩ = k T / (m ω² (1 − ω² dt² / 4)). The numbers are counted by id, step and seed.
 #[derive(Clone)]
 pub struct Langevin {
     bath: Bath,
@@ -34,7 +34,7 @@ impl Langevin {
 impl Component for Langevin {
     fn properties(&self) -> Properties {
         let why = "langevin has noise of one step, whose length is fixed";
-        Properties { fixed_step: Some(why), constrains: true, ..Properties::default() }
+        Properties { fixed_step: Some(why), constrains: true, thermostat: true, ..Properties::default() }
     }
     fn stage(&self, stage: Stage, plan: &mut Plan, problem: &Problem) -> Result<(), Error> {
         if stage == Stage::EndOfStep {

@@ -21,7 +21,7 @@ pub const KEYS: &[Key] = &[
 ];
 
 /// What does not count as a degree of freedom.
-pub(super) const REMOVED: Key = Key::new("removed", Kind::Whole, Value::Number(0.0), "constrained degrees of freedom: 3 where forces conserve the total momentum, and it is 0");
+pub(super) const REMOVED: Key = Key::new("removed", Kind::Whole, Value::Number(0.0), "constrained degrees of freedom: as many as dimensions where forces conserve the total momentum, and it is 0");
 
 /// ξ
 const RATE: Field<f32> = Field::new("thermostat_rate");
@@ -94,11 +94,8 @@ impl NoseHoover {
 }
 
 /// Refuses what thermostats of all particles do not serve.
-pub(super) fn serves(name: &str, removed: f64, plan: &Plan, problem: &Problem) -> Result<(), Error> {
+pub(super) fn serves(name: &str, removed: f64, problem: &Problem) -> Result<(), Error> {
     let refuse = |why: &str| Err(Error::Scene(format!("{name} {why}")));
-    if plan.kernels.iter().any(|kernel| kernel.names(CHANGE.name)) {
-        return refuse("is there twice, or beside another thermostat, and both would regulate the same particles: remove one of them");
-    }
     if problem.has_inactive {
         return refuse("regulates the same particles all the time: leave out emitters and drains");
     }
@@ -172,11 +169,11 @@ impl Component for NoseHoover {
     }
     fn properties(&self) -> Properties {
         let why = "nose_hoover is reversible in steps of one length";
-        Properties { fixed_step: Some(why), constrains: true, ..Properties::default() }
+        Properties { fixed_step: Some(why), constrains: true, thermostat: true, ..Properties::default() }
     }
     fn stage(&self, stage: Stage, plan: &mut Plan, problem: &Problem) -> Result<(), Error> {
         if matches!(stage, Stage::StartOfStep | Stage::EndOfStep) {
-            serves("nose_hoover", self.removed, plan, problem)?;
+            serves("nose_hoover", self.removed, problem)?;
             self.part(0.5, problem)?.into_iter().for_each(|kernel| plan.add(kernel));
         }
         Ok(())

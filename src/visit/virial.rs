@@ -36,6 +36,9 @@ impl Law {
             Over::List { .. } => return refuse("keeps history of pairs"),
             over => return refuse(&format!("is evaluated over \"{}\"", over.name())),
         }
+        if law.wgsl.ours && !law.reciprocal {
+            return refuse("exerts forces that are not equal and opposite");
+        }
         if law.search.is_some() || law.distant.images {
             return refuse("has more than the forces of single pairs");
         }

@@ -38,7 +38,7 @@ fn machines() -> [(&'static str, Machine); 2] {
     let (bindable, workgroups) = (128 << 20, 65_535);
     let software = Machine { subgroup: 8, invocations: 256, bindable, workgroups, ..Machine::HOST };
     let gpu =
-        Machine { software: false, subgroup: 32, invocations: 1 << 18, meetings: 1 << 33, turns: u32::MAX, ..software };
+        Machine { software: false, subgroup: 32, invocations: 1 << 18, meetings: 1 << 32, turns: u32::MAX, ..software };
     [("software", software), ("gpu", gpu)]
 }
 

@@ -3,7 +3,7 @@
 use glam::DVec3;
 use motes::kernel::Array;
 use motes::life::Life;
-use motes::links::{Link, Links};
+use motes::links::{Link, Links, Rod};
 use motes::motion::{Held, Hold};
 use motes::settings::{Pair, Value};
 use motes::{Bounds, Cpu, Error, Setup, Side, Simulation, State};
@@ -156,6 +156,18 @@ fn what_it_does_not_serve_is_refused() {
         }
     };
     assert!(refused(&|all| all.forces.push(thermostat(0.0))).contains("is there twice"));
+    let langevin = || force("langevin", &[("temperature", Value::Number(KT))]);
+    assert!(refused(&|all| all.forces.push(langevin())).contains("nose_hoover and langevin are there"));
+    assert!(refused(&|all| all.forces = vec![langevin(), langevin()]).contains("langevin is there twice"));
+    let rods = |all: &mut Setup| {
+        all.state.links = Links::default();
+        let length = (all.state.position()[0] - all.state.position()[1]).length();
+        all.state.links.rods.push(Rod { ends: [0, 1], length });
+        all.state.velocity_mut().fill(DVec3::ZERO);
+        all.forces = vec![force("rod", &[]), langevin()];
+    };
+    let said = refused(&rods);
+    assert!(said.contains("leave out the rods"), "{said}");
     assert!(refused(&|all| all.forces = vec![thermostat(24.0)]).contains("no degree of freedom"));
     assert!(refused(&|all| all.state.set_life(1, Life::Removed)).contains("leave out emitters and drains"));
 }

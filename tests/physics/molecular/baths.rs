@@ -41,6 +41,31 @@ fn twice(state: &State) -> f64 {
     state.velocity().iter().zip(state.mass()).map(|(v, m)| m * v.length_squared()).sum()
 }
 
+/// A run that goes on from its own state has the bits of one that was never stopped; two seeds have not.
+#[test]
+fn thermostats_go_on_with_the_same_bits() {
+    for name in ["langevin", "andersen", "berendsen", "csvr", "nose_hoover"] {
+        let forces = |seed| match name {
+            "nose_hoover" => vec![
+                force("soft", &[("range", Value::Number(1.5))]),
+                force(name, &[("temperature", Value::Number(KT))]),
+            ],
+            _ => vec![force("soft", &[("range", Value::Number(1.5))]), bath(name, 5.0, seed)],
+        };
+        let run = |state: State, steps: u32, seed: f64| {
+            let mut simulation = on_cpu(&setup(state, forces(seed), Bounds::default(), 0.01));
+            simulation.step(steps).expect("steps");
+            block_on(simulation.snapshot()).expect("a state")
+        };
+        let start = || spread(20, 0.9);
+        let (whole, other) = (run(start(), 20, 1.0), run(start(), 20, 2.0));
+        let parts = run(run(start(), 10, 1.0), 10, 1.0);
+        assert!(whole == parts, "{name}: a state does not hold all of it");
+        let random = !["berendsen", "nose_hoover"].contains(&name);
+        assert_eq!(whole.velocity() != other.velocity(), random, "{name}");
+    }
+}
+
 /// The largest difference between how samples are distributed and how they should be, times √n: above 1.95 with a probability of 1e-3
 /// (Kolmogorov 1933).
 fn distance(mut samples: Vec<f64>, cumulative: impl Fn(f64) -> f64) -> f64 {

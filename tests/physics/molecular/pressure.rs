@@ -131,11 +131,18 @@ fn forces_without_a_virial_are_refused() {
     let history = Over::List { range: 2.5, skin: Some(0.2), slots: 1 };
     let said = why(Box::new(Custom::new("own", "own.wgsl", OWN, history)));
     assert!(said.contains("`own` keeps history"), "{said}");
-    // The mean of neighbours is no sum over pairs.
-    let mean = OWN.replace("vec4f(sum.pull, sum.energy)", "vec4f(normalize(sum.pull), 0.0)");
-    let law = Custom::new("own", "own.wgsl", &mean, Over::Near { range: 2.5, of: None });
-    let said = why(Box::new(law));
+    // What is no sum over pairs, and what is not finite where there is no neighbour.
+    let limited = |force: &str| {
+        let text = OWN.replace("vec4f(sum.pull, sum.energy)", &format!("vec4f({force}, 0.0)"));
+        why(Box::new(Custom::new("own", "own.wgsl", &text, Over::Near { range: 2.5, of: None })))
+    };
+    let said = limited("sum.pull / (1.0 + length(sum.pull))");
     assert!(said.contains("do not add up"), "{said}");
+    let said = limited("normalize(sum.pull)");
+    assert!(said.contains("not finite"), "{said}");
+    // Forces from one side push the box as a whole.
+    let said = why(force("flee", &[]));
+    assert!(said.contains("not equal and opposite"), "{said}");
     // What acts on single particles is no part of the pressure of pairs.
     let drag = force("drag", &[]);
     assert_eq!(on_gpu(&setup(spread(100, 1.1), vec![drag], bounds, 1e-3)).expect("none"), [0.0; 6]);
