@@ -89,7 +89,7 @@ impl Bath {
 /// Three normal numbers out of four random words; in the plane the third is 0.
 pub(crate) fn normals(words: [u32; 4], dimensions: u32) -> DVec3 {
     let radius = |word: u32| (-2.0 * ((f64::from(word >> 8) + 0.5) / 16_777_216.0).ln()).sqrt();
-    let angle = |word: u32| std::f64::consts::TAU * (fraction(word) - 0.5);
+    let angle = |word: u32| std::f64::consts::TAU * fraction(word);
     let [a, b, c, d] = words;
     let z = if dimensions == 3 { radius(c) * angle(d).cos() } else { 0.0 };
     DVec3::new(radius(a) * angle(b).cos(), radius(a) * angle(b).sin(), z)

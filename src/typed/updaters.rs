@@ -13,7 +13,7 @@ typed! {
         temperature: f64,
         /// τ, the relaxation time of the thermostat; some periods of the fastest motion \[time\].
         time: f64,
-        /// Constrained degrees of freedom: 3 where forces conserve the total momentum, and it is 0.
+        /// Constrained degrees of freedom: as many as dimensions where forces conserve the total momentum, and it is 0.
         removed: u64,
     }
     /// A heat bath with friction and noise on every particle (Langevin 1908, Bussi & Parrinello 2007).
@@ -40,7 +40,7 @@ typed! {
         temperature: f64,
         /// τ, the relaxation time of the temperature \[time\].
         time: f64,
-        /// Constrained degrees of freedom: 3 where forces conserve the total momentum, and it is 0.
+        /// Constrained degrees of freedom: as many as dimensions where forces conserve the total momentum, and it is 0.
         removed: u64,
     }
     /// A thermostat: the kinetic energy relaxes and fluctuates as it does in a heat bath, by one random factor for all velocities (Bussi, Donadio & Parrinello 2007).

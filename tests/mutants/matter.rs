@@ -50,7 +50,6 @@ pub const EQUIVALENT: &[Equivalent] = &[
     same("andersen.wgsl", "override SEED_HIGH: u32 = 0u;", "0u", "1u", ALWAYS_SET),
     same("andersen.wgsl", "let collides = fraction(", "<", "<=", "no number is exactly the probability"),
     same("normals.wgsl", "let uniform_numbers = ", "0.5", "0.75", "a quarter of 2^-24 is nothing to a logarithm"),
-    same("normals.wgsl", "let angle = TAU", "-", "+", "a turn more is the same angle"),
     same("decayed.wgsl", "if x > 0.5", ">", ">=", "both formulas hold there"),
     same("decayed.wgsl", "if x > 0.5", "0.5", "0.75", "both formulas hold between"),
     same("berendsen.wgsl", "override DIMENSIONS: f32 = 3.0;", "3.0", "4.5", ALWAYS_SET),
