@@ -144,6 +144,8 @@ fn scenes_scale_by_one_number() {
         "figure_eight",
         "solar_system",
         "salt",
+        "argon",
+        "vapour",
         "stiff",
         "spring_chain",
         "poiseuille",
