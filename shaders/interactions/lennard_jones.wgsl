@@ -1,6 +1,6 @@
 // Lennard-Jones atoms (Lennard-Jones 1931), with ε and σ of the pair of species:  U(r) = 4 ε [(σ / r)¹² − (σ / r)⁶]
 struct Params { unused_word: u32, range: f32, onset: f32 }
-struct Pair { epsilon: f32, sigma: f32, end_value: f32, end_slope: f32 }
+struct Pair { @size(16) unused_word: u32, epsilon: f32, sigma: f32, end_value: f32, end_slope: f32 }
 struct Sum { force: vec3f, energy: f32 }
 
 @group(3) @binding(0) var<uniform> params: Params;

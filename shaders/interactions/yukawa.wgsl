@@ -1,6 +1,6 @@
 // Screened charges (Debye & Hückel 1923; Yukawa 1935), with A and κ of the pair of species:  U(r) = A exp(−κ r) / r
 struct Params { unused_word: u32, range: f32, onset: f32 }
-struct Pair { strength: f32, screening: f32, end_value: f32, end_slope: f32 }
+struct Pair { @size(16) unused_word: u32, strength: f32, screening: f32, end_value: f32, end_slope: f32 }
 struct Sum { force: vec3f, energy: f32 }
 
 @group(3) @binding(0) var<uniform> params: Params;

@@ -75,6 +75,9 @@ fn tables_have_names_of_their_own_and_rows_as_long_as_their_headers() {
     let unwrapped = motes::Column::new("unwrapped", motes::Kind::Vector, "length", "").with_rate("velocity");
     state.declare(&unwrapped).expect("a column");
     state.set("unwrapped", Array::Vec3(vec![DVec3::ZERO; state.len()])).expect("a column");
+    let radius = motes::Column::new("radius", motes::Kind::Scalar, "length", "");
+    state.declare(&radius).expect("a column");
+    state.set("radius", Array::Float(vec![0.1; state.len()])).expect("a column");
     let range = [("range", Value::Number(0.9)), ("start", Value::Vector(DVec3::ZERO))];
     for measure in MEASURES.iter().filter(|measure| measure.name != "fluid") {
         let sets: Vec<_> =
