@@ -5,7 +5,7 @@
 //   tangential  F = −kₜ ξ − γₜ vₜ,  ξ' = vₜ,  kₜ ∝ S,  γₜ ∝ γ,  |F| ≤ μ (N + γ v·n): at the limit it slides, and ξ is set to give that force
 //   rolling     τ = −kᵣ ψ − γᵣ ωᵣ,  ψ' = ωᵣ,  kᵣ = 2.25 N / δ (μᵣ R)²,  |τ| ≤ μᵣ R (N + γ v·n), where ψ is set to give that torque
 //               (Ai et al. 2011);  or of constant size, τ = −μᵣ R (N + γ v·n) ωᵣ / |ωᵣ|
-//   torsion     the same about n, with μₜ, always by a spring
+//   torsion     the same about n, with μₜ and 2/7 of the moment, always by a spring
 struct Pair {
     @size(8) unused_word: u32,
     stiffness: f32, damping: f32, friction: f32, shear: f32, drag: f32,
@@ -66,9 +66,16 @@ fn touch(pair: Pair, at: Meeting, last: Wound) -> Touch {
     if pair.torsion > 0.0 {
         let arm = 1.5 * pair.torsion * at.radius;
         let back = secant * arm * arm;
-        let most = pair.torsion * at.radius * pressed / back;
-        twist = clamp(last.twist + world.dt * about, -most, most);
-        turn -= (back * twist) * n;
+        let most = pair.torsion * at.radius * pressed;
+        twist = last.twist + world.dt * about;
+        // About its own axis a sphere has 2/5 m R².
+        let against = -back * twist - (2.0 * pair.rolling_damping * sqrt(back * (0.2857143 * at.rest))) * about;
+        var torsion = against;
+        if abs(against) > most {
+            torsion = sign(against) * most;
+            twist = -torsion / back;
+        }
+        turn += torsion * n;
     }
     return Touch(tangential - normal * n, turn, Wound(wound, roll, twist));
 }

@@ -9,9 +9,10 @@ struct Sum { force: vec3f, torque: vec3f }
 // 7/5 m R², the moment about the contact of a sphere.
 fn moment(mass: f32, radius: f32) -> f32 { return 1.4 * mass * radius * radius; }
 
+// Where one is 0 the other: what has no mass is moved by nothing, as if it had an infinite one.
 fn reduced(a: f32, b: f32) -> f32 {
-    if a + b > 0.0 { return a * b / (a + b); }
-    return 0.0;
+    if a > 0.0 && b > 0.0 { return a * b / (a + b); }
+    return max(a, b);
 }
 
 fn gather(me: Particle, you: Particle, r: vec3f, sum: ptr<function, Sum>) {
@@ -19,7 +20,7 @@ fn gather(me: Particle, you: Particle, r: vec3f, sum: ptr<function, Sum>) {
     let yours = angular_velocity[you.index];
     let distance = length(r);
     let overlap = mine.w + yours.w - distance;
-    let touches = overlap > 0.0;
+    let touches = overlap > 0.0 && mine.w > 0.0 && yours.w > 0.0;
     // Two particles at the same position have no direction between them.
     if touches && distance > 0.0 {
         let n = r / distance;

@@ -18,8 +18,7 @@ struct Frame { centre: vec3f, pivot: vec3f, turn: vec4f, velocity: vec3f, spin: 
 override WORDS: u32 = 3u;
 
 // ∇φ and φ of a face that a grain may touch: of a container each axis has its nearest one.
-fn surface(contact: u32, x: vec3f, frame: Frame) -> vec4f {
-    let r = x - frame.centre;
+fn surface(contact: u32, r: vec3f, frame: Frame) -> vec4f {
     let own = r + turned(vec4f(-frame.turn.xyz, frame.turn.w), r);
     var s = params.side * signed_distance(params.shape, own, params.radius, params.size, params.axis);
     if params.contacts > 1u {
@@ -55,16 +54,19 @@ fn force(me: Particle) -> vec4f {
     var push = vec3f();
     var turn = vec3f();
     // A particle without mass is moved by nothing.
-    let meets = me.mass > 0.0 && is_of(me.index, params.species);
+    let meets = me.mass > 0.0 && mine.w > 0.0 && is_of(me.index, params.species);
+    // Planes have no end; all others have images in a periodic box.
+    var r = me.position - frame.centre;
+    if params.shape != 2u { r = shortest(r); }
     for (var contact = 0u; contact < params.contacts; contact += 1u) {
         let next = place(me.index, world.step + 1u, contact);
-        let s = surface(contact, me.position, frame);
+        let s = surface(contact, r, frame);
         let overlap = mine.w - s.w;
         var kept = Wound();
         if meets && overlap > 0.0 {
             let n = -s.xyz;
             let arm = mine.w - 0.5 * overlap;
-            let moving = frame.velocity + cross(frame.spin, me.position + arm * n - frame.pivot);
+            let moving = frame.velocity + cross(frame.spin, frame.centre + r + arm * n - frame.pivot);
             let v = velocity_of(me) + arm * cross(mine.xyz, n) - moving;
             let rest = 1.4 * me.mass * mine.w * mine.w;
             let last = place(me.index, world.step, contact);

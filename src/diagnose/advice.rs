@@ -182,15 +182,20 @@ pub fn advice(setup: &Setup, end: Option<f64>) -> Result<Vec<Remark>, Error> {
     }
     let (order, reduced) = (setup.integrator.order(), setup.integrator.order_with_velocity());
     let loses = reduced < order || implicit && order > 1;
+    // What keeps history is evaluated once in a step.
+    let keeps = |law: &Law| matches!(law.over, Over::List { slots, .. } if slots > 0);
+    let keeps_history = laws.iter().any(keeps) || setup.forces.iter().any(|force| force.properties().history);
     let depends = |name: &str| {
         let with_it = if implicit { 1 } else { reduced };
         let text = format!(
             "`{name}` depends on velocity: {} is of order {order} for other forces, and of order {with_it} with it",
             setup.integrator.name()
         );
-        Remark::note("reduced-order", text)
-            .with("order", f64::from(with_it))
-            .advice("midpoint, heun and rk4 keep their order")
+        Remark::note("reduced-order", text).with("order", f64::from(with_it)).advice(if keeps_history {
+            "choose a smaller dt"
+        } else {
+            "midpoint, heun and rk4 keep their order"
+        })
     };
     for force in setup.forces.iter().filter(|force| force.properties().makes_fluid) {
         let rates = force.resolved(&problem)?.rates.unwrap_or_default();

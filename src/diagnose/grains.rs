@@ -30,7 +30,8 @@ pub fn remarks(setup: &Setup) -> Vec<Remark> {
     let mut remarks = Vec::new();
     if let Some(grain) = radii.iter().position(|radius| *radius <= 0.0) {
         let none = radii.iter().filter(|radius| **radius <= 0.0).count();
-        let text = format!("{none} grains have radius 0, the first of them particle {grain}: they touch nothing");
+        let text =
+            format!("{none} grains have a radius of 0 or less, the first of them particle {grain}: they touch nothing");
         remarks.push(
             Remark::warning("no-radius", text)
                 .with("particles", none as f64)

@@ -69,10 +69,10 @@ pub fn moment(mass: f64, radius: f64) -> f64 {
     1.4 * mass * radius * radius
 }
 
-/// a b / (a + b); 0 where both are.
+/// a b / (a + b); where one is 0 the other: what has no mass is moved by nothing, as if it had an infinite one.
 #[must_use]
 pub fn reduced(a: f64, b: f64) -> f64 {
-    if a + b > 0.0 { a * b / (a + b) } else { 0.0 }
+    if a > 0.0 && b > 0.0 { a * b / (a + b) } else { a.max(b) }
 }
 
 impl Material {
@@ -118,10 +118,15 @@ impl Material {
         let mut twist = 0.0;
         if self.torsion > 0.0 {
             let back = secant * (1.5 * self.torsion * at.radius).powi(2);
-            let most = self.torsion * at.radius * pressed / back;
-            // No clamp, which panics where a limit is no number.
-            twist = (last.twist + dt * at.spin.dot(n)).min(most).max(-most);
-            turn -= back * twist * n;
+            let (most, about) = (self.torsion * at.radius * pressed, at.spin.dot(n));
+            twist = last.twist + dt * about;
+            // About its own axis a sphere has 2/5 m R².
+            let mut torsion = -back * twist - 2.0 * self.rolling_damping * (back * at.rest * 2.0 / 7.0).sqrt() * about;
+            if torsion.abs() > most {
+                torsion = torsion.signum() * most;
+                twist = -torsion / back;
+            }
+            turn += torsion * n;
         }
         Touch { push: tangential - normal * n, turn, wound: Wound { slide, roll, twist } }
     }

@@ -19,6 +19,8 @@ pub struct Surface {
     pub side: f64,
     /// Contacts that a grain may have with it at the same time: of a box with grains inside one along each axis.
     pub contacts: u32,
+    /// Words of history that each particle has.
+    pub words: u32,
     /// Its initial position \[length\].
     pub position: DVec3,
     /// The species that it acts on, if not all.
@@ -139,8 +141,7 @@ impl Surface {
         let mut constants = problem.constants(&shader);
         constants.push(("WORDS", f64::from(words)));
         let [history, pose] = ["history", "frame"].map(|what| own(what, earlier));
-        let slots = u64::from(2 * wall.contacts * words);
-        let mut sizes = vec![(history.clone().into(), u64::from(problem.capacity) * slots)];
+        let mut sizes = vec![(history.clone().into(), u64::from(problem.capacity) * u64::from(wall.words))];
         if wall.motion.is_some() {
             sizes.push((pose.clone().into(), FRAME));
         }
@@ -167,15 +168,18 @@ impl Surface {
         for me in &bodies {
             let mine = me.vector("angular_velocity").unwrap_or_default();
             // A particle without mass is moved by nothing.
-            let meets = me.mass > 0.0 && self.species.is_none_or(|own| own == me.species());
+            let meets = me.mass > 0.0 && mine.w > 0.0 && self.species.is_none_or(|own| own == me.species());
+            let way = me.position - frame.centre;
+            // Planes have no end; all others have images in a periodic box.
+            let r = if matches!(self.shape, Solid::Plane(_)) { way } else { world.bounds.shortest(way) };
             for contact in 0..self.contacts as usize {
                 let place = |half: usize| ((2 * me.index + half) * self.contacts as usize + contact) * words;
-                let (out, distance) = self.face(contact, me.position, &frame, &world);
+                let (out, distance) = self.face(contact, r, &frame, &world);
                 let overlap = mine.w - distance;
                 let mut kept = Wound::default();
                 if meets && overlap > 0.0 {
                     let (n, arm) = (-out, mine.w - 0.5 * overlap);
-                    let moving = frame.velocity + frame.spin.cross(me.position + arm * n - frame.pivot);
+                    let moving = frame.velocity + frame.spin.cross(frame.centre + r + arm * n - frame.pivot);
                     let at = Meeting {
                         n,
                         overlap,
@@ -208,8 +212,8 @@ impl Surface {
         Ok(Frame { centre, pivot, turn: DQuat::from_vec4(row(2)), velocity, spin })
     }
     /// ∇φ and φ of a face that a grain may touch.
-    fn face(&self, contact: usize, x: DVec3, frame: &Frame, world: &World) -> (DVec3, f64) {
-        let own = frame.turn.inverse() * (x - frame.centre);
+    fn face(&self, contact: usize, r: DVec3, frame: &Frame, world: &World) -> (DVec3, f64) {
+        let own = frame.turn.inverse() * r;
         let (out, distance) = match self.shape {
             Solid::Box(size) if self.contacts > 1 => {
                 let out = if own[contact] >= 0.0 { -1.0 } else { 1.0 };

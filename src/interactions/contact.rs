@@ -114,7 +114,7 @@ fn touch(material: &Material, (me, you): (&Particle, &Particle), r: DVec3, world
     let distance = r.length();
     let overlap = mine.w + yours.w - distance;
     // Two particles at the same position have no direction between them.
-    if overlap <= 0.0 || distance <= 0.0 {
+    if overlap <= 0.0 || distance <= 0.0 || mine.w <= 0.0 || yours.w <= 0.0 {
         return;
     }
     let n = r / distance;

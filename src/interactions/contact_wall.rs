@@ -84,7 +84,9 @@ impl ContactWall {
         Ok(Surface {
             shape: self.shape(),
             side: if self.holds() { -1.0 } else { 1.0 },
-            contacts: self.contacts(),
+            // In the plane a box has no faces above and below.
+            contacts: self.contacts().min(problem.bounds.dimensions),
+            words: self.words(),
             position: self.0.vector("position"),
             species: self.0.species("species"),
             material: Material::of(&self.0),
@@ -101,10 +103,21 @@ impl Component for ContactWall {
         let about = "the history of contacts with a wall, word by word, twice";
         vec![Column::new(own("history", earlier), Element::Scalar, "", about).shaped(Slots::Slots(self.words()))]
     }
-    fn check(&self, _: &Bounds) -> Result<(), Error> {
+    fn check(&self, bounds: &Bounds) -> Result<(), Error> {
         let values = grains::NAMES.map(|name| self.0.number(name));
         grains::check(&values)?;
         let (shape, axis) = (self.shape(), self.0.vector("axis"));
+        let wrong = |key: &'static str, why: &str| Err(Error::Setting { key, why: why.to_owned() });
+        match shape {
+            Solid::Box(size) if size.min_element() < 0.0 => return wrong("size", "a side of the box is below 0"),
+            Solid::Plane(normal) if bounds.dimensions == 2 && normal.z != 0.0 => {
+                return wrong("normal", "the normal leads out of the plane of the scene: its third number must be 0");
+            }
+            Solid::Plane(_) | Solid::Cone { .. } if self.0.flag("inside") => {
+                return wrong("inside", "a plane and the surface of a cone have no inside: turn the normal, or leave it out");
+            }
+            _ => {}
+        }
         if matches!(shape, Solid::Cone { .. }) && axis.length() <= 0.0 {
             let why = "the axis of a cone is 0: a plate with a hole has a short axis along its normal".to_owned();
             return Err(Error::Setting { key: "axis", why });

@@ -5,6 +5,7 @@ use std::borrow::Cow;
 use glam::DVec3;
 
 use super::series::number;
+use super::thermo::held;
 use super::{Measure, Moment, Row, Series};
 use crate::error::Error;
 use crate::kernel::Kind as Element;
@@ -46,10 +47,11 @@ pub const MEASURE: Measure = Measure {
             ));
         }
         let species = settings.species("species");
-        let chosen: Vec<usize> =
-            (0..state.len()).filter(|i| species.is_none_or(|species| state.species()[*i] == species)).collect();
+        let held = held(state);
+        let is_of = |i: &usize| !held[*i] && species.is_none_or(|species| state.species()[*i] == species);
+        let chosen: Vec<usize> = (0..state.len()).filter(is_of).collect();
         if chosen.is_empty() {
-            let why = "`diffusion` measures a species of which there is no particle: choose another, or \"all\"".to_owned();
+            let why = "`diffusion` measures a species of which no particle moves: choose another, or \"all\"".to_owned();
             return Err(Error::Setting { key: "species", why });
         }
         let from = state.vector(UNWRAPPED).map_or_else(|| vec![DVec3::ZERO; state.len()], <[DVec3]>::to_vec);
