@@ -5,7 +5,7 @@ use motes::diagnose::{Remark, Severity, conserved, diagnose, of_machine};
 use motes::kernel::Machine;
 use motes::links::Link;
 use motes::scene::{Options, Scene, Source};
-use motes::typed::{Gravity, Rod, Solid, Spring, Uniform, default, plummer};
+use motes::typed::{Gravity, Rod, Solid, Spring, Uniform, contact, default, plummer};
 use motes::{Bounds, Error, Setup, State};
 
 fn said(setup: &Setup) -> Result<Vec<Remark>, Error> {
@@ -77,6 +77,9 @@ fn what_is_conserved_is_known() {
     let weight = Uniform { ..default() };
     let falls = conserved(&Setup { forces: vec![weight.into()], ..setup.clone() }).expect("sense");
     assert!(falls.energy && !falls.momentum);
+    // Contacts keep history, which a law alone does not have.
+    let touches = conserved(&Setup { forces: vec![contact(0.1).into()], ..setup.clone() }).expect("sense");
+    assert!(!touches.energy && touches.momentum && !touches.angular_momentum);
     let bounces = conserved(&Setup { forces: vec![Solid::default().into(), Rod::default().into()], ..setup });
     assert!(!bounces.expect("sense").energy);
 }
