@@ -11,6 +11,8 @@ use crate::simulation::Setup;
 const RAYLEIGH: f64 = 0.2;
 /// The largest step, as a part of the time of contact.
 const CONTACT: f64 = 0.05;
+/// How many times heavier than the heaviest free grain a fixed one has to be, to be as good as a wall: the reduced mass is then right to 1e-3.
+const HEAVY: f64 = 1000.0;
 /// The largest overlap at the start, as a part of the smaller radius.
 const OVERLAP: f64 = 0.1;
 
@@ -39,9 +41,30 @@ pub fn remarks(setup: &Setup) -> Vec<Remark> {
                 .advice("give them a radius"),
         );
     }
+    remarks.extend(light_walls(setup));
     remarks.extend(long_step(setup, radii, &materials));
     remarks.extend(overlaps(setup, radii));
     remarks
+}
+
+/// Fixed grains that impacts take for light ones.
+fn light_walls(setup: &Setup) -> Option<Remark> {
+    let mass = setup.state.mass();
+    let is_held = |i: usize| setup.state.held.iter().any(|held| held.id as usize == i);
+    let free = (0..mass.len()).filter(|i| !is_held(*i)).map(|i| mass[i]).fold(0.0, f64::max);
+    let light = setup
+        .state
+        .held
+        .iter()
+        .map(|held| held.id as usize)
+        .find(|i| mass.get(*i).is_some_and(|mass| *mass > 0.0 && *mass < HEAVY * free))?;
+    let text = format!(
+        "particle {light} is fixed and has a mass of {}, which impacts count: they lose less than `restitution` says",
+        digits(mass[light])
+    );
+    let way =
+        format!("give fixed grains a mass of 0, which counts as infinite, or of {} at least", digits(HEAVY * free));
+    Some(Remark::warning("light-walls", text).with("particle", light as f64).advice(way))
 }
 
 fn long_step(setup: &Setup, radii: &[f64], materials: &[Material]) -> Option<Remark> {

@@ -93,6 +93,37 @@ fn impacts_have_their_coefficient_of_restitution() {
     }
 }
 
+/// A fixed sphere without mass counts as infinitely heavy, and what spins on it comes to rest.
+#[test]
+fn fixed_grains_are_walls() {
+    for (mass, want, near) in [(0.0, 0.5, 0.02), (1e6, 0.5, 0.02), (1.0, 0.617, 0.02)] {
+        let mut two = [GRAIN, GRAIN];
+        two[0].mass = mass;
+        two[1].position = DVec3::X;
+        two[1].velocity = -DVec3::X;
+        let mut all = grains(&two, &[("restitution", 0.5)], touch(0.5, 0.5) / 200.0);
+        all.state.held = vec![Held { id: 0, by: Hold::Fixed }];
+        let away = after(&all, 4.0 * touch(1.0, 0.5)).velocity()[1].x;
+        assert!((away - want).abs() < near, "on mass {mass}: {away} is not {want}");
+    }
+    let spun = |damping: f64| {
+        let mut two = [GRAIN, GRAIN];
+        two[0].mass = 0.0;
+        two[1].position = DVec3::Z * (1.0 - 1.0 / STIFFNESS);
+        two[1].spin = DVec3::Z;
+        let more = [("torsional_friction", 0.1), ("rolling_damping", damping), ("friction", 0.0)];
+        let mut all = grains(&two, &more, 1e-3);
+        all.state.held = vec![Held { id: 0, by: Hold::Fixed }];
+        all.forces.push(force("uniform", &[("acceleration", vector(0.0, 0.0, -1.0))]));
+        (0..5)
+            .map(|k| after(&all, 10.0 + 0.03 * f64::from(k)))
+            .map(|state| state.vector("angular_velocity").expect("spins")[1].z.abs())
+            .fold(0.0, f64::max)
+    };
+    let (damped, free) = (spun(0.3), spun(0.0));
+    assert!(damped < 1e-3 && free > 10.0 * damped, "{damped:e} with, {free:e} without damping");
+}
+
 /// A sphere on a sphere so large that it is a plane, in a weight that is inclined by the angle: what it gains in the second unit of
 /// time of its speed down the slope, and of its spin. In the first one springs are wound up.
 fn inclined(angle: f64, friction: f64, inertia: f64) -> (f64, f64) {
