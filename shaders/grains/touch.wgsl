@@ -51,11 +51,12 @@ fn touch(pair: Pair, at: Meeting, last: Wound) -> Touch {
         let arm = 1.5 * pair.rolling * at.radius;
         let back = secant * arm * arm;
         roll = last.roll - dot(last.roll, n) * n + world.dt * rolls;
-        turn = -back * roll - (2.0 * pair.rolling_damping * sqrt(back * at.rest)) * rolls;
+        let slowed = (2.0 * pair.rolling_damping * sqrt(back * at.rest)) * rolls;
+        turn = -back * roll - slowed;
         let most = length(turn);
         if most > rolling_limit {
             turn *= rolling_limit / most;
-            roll = -turn / back;
+            roll = -(turn + slowed) / back;
         }
     } else {
         let speed = length(rolls);
@@ -69,11 +70,12 @@ fn touch(pair: Pair, at: Meeting, last: Wound) -> Touch {
         let most = pair.torsion * at.radius * pressed;
         twist = last.twist + world.dt * about;
         // About its own axis a sphere has 2/5 m R².
-        let against = -back * twist - (2.0 * pair.rolling_damping * sqrt(back * (0.2857143 * at.rest))) * about;
+        let slowed = (2.0 * pair.rolling_damping * sqrt(back * (0.2857143 * at.rest))) * about;
+        let against = -back * twist - slowed;
         var torsion = against;
         if abs(against) > most {
             torsion = sign(against) * most;
-            twist = -torsion / back;
+            twist = -(torsion + slowed) / back;
         }
         turn += torsion * n;
     }

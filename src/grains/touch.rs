@@ -106,10 +106,11 @@ impl Material {
         if self.elastic && self.rolling > 0.0 {
             let back = secant * (1.5 * self.rolling * at.radius).powi(2);
             roll = across(last.roll) + dt * rolls;
-            turn = -back * roll - 2.0 * self.rolling_damping * (back * at.rest).sqrt() * rolls;
+            let slowed = 2.0 * self.rolling_damping * (back * at.rest).sqrt() * rolls;
+            turn = -back * roll - slowed;
             if turn.length() > most {
                 turn = turn.normalize() * most;
-                roll = -turn / back;
+                roll = -(turn + slowed) / back;
             }
         } else if rolls.length() > 0.0 {
             turn = -most * rolls.normalize();
@@ -121,10 +122,11 @@ impl Material {
             let (most, about) = (self.torsion * at.radius * pressed, at.spin.dot(n));
             twist = last.twist + dt * about;
             // About its own axis a sphere has 2/5 m R².
-            let mut torsion = -back * twist - 2.0 * self.rolling_damping * (back * at.rest * 2.0 / 7.0).sqrt() * about;
+            let slowed = 2.0 * self.rolling_damping * (back * at.rest * 2.0 / 7.0).sqrt() * about;
+            let mut torsion = -back * twist - slowed;
             if torsion.abs() > most {
                 torsion = torsion.signum() * most;
-                twist = -torsion / back;
+                twist = -(torsion + slowed) / back;
             }
             turn += torsion * n;
         }
