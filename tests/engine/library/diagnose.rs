@@ -78,7 +78,18 @@ fn what_is_conserved_is_known() {
     let falls = conserved(&Setup { forces: vec![weight.into()], ..setup.clone() }).expect("sense");
     assert!(falls.energy && !falls.momentum);
     // Contacts keep history, which a law alone does not have.
-    let touches = conserved(&Setup { forces: vec![contact(0.1).into()], ..setup.clone() }).expect("sense");
+    let mut touches = Setup { forces: vec![contact(0.1).into()], ..setup.clone() };
+    let radius = motes::Column::new("radius", motes::Kind::Scalar, "length", "");
+    let inertia = motes::Column::new("inertia", motes::Kind::Vector, "mass length²", "");
+    let (count, state) = (touches.state.len(), &mut touches.state);
+    for (column, values) in [
+        (radius, motes::kernel::Array::Float(vec![0.01; count])),
+        (inertia, motes::kernel::Array::Vec3(vec![DVec3::splat(1e-6); count])),
+    ] {
+        state.declare(&column).expect("a column");
+        state.set(&column.name, values).expect("a column");
+    }
+    let touches = conserved(&touches).expect("sense");
     assert!(!touches.energy && touches.momentum && !touches.angular_momentum);
     let bounces = conserved(&Setup { forces: vec![Solid::default().into(), Rod::default().into()], ..setup });
     assert!(!bounces.expect("sense").energy);
