@@ -12,7 +12,8 @@ use glam::DVec4;
 use crate::error::Error;
 use crate::gpu::Gpu;
 use crate::kernel::{
-    ACCELERATION, Access, Array, Backend, Host, Kernel, LIFE, Name, Next, POSITION, Plan, VELOCITY, World,
+    ACCELERATION, Access, Array, Backend, Host, Kernel, LIFE, Name, Next, POSITION, Plan, VELOCITY, World, high_words,
+    joined,
 };
 
 /// The tolerated error of a kernel, relative to the change: a sum of n terms of one magnitude has a rounding error of about √n ulp, and
@@ -20,6 +21,20 @@ use crate::kernel::{
 pub const TOLERANCE: f64 = 1e-5;
 /// An additional tolerance, in units of the last place of the result, for the last addition and for a product before it.
 const LAST_PLACES: f64 = 2.0;
+/// What is tolerated: a part of the change, and a part of the result.
+#[derive(Clone, Copy)]
+struct Tolerance {
+    change: f64,
+    result: f64,
+}
+
+/// Of a number of single precision.
+const SINGLE: Tolerance = Tolerance { change: TOLERANCE, result: LAST_PLACES * EPSILON };
+/// Of the sum of two words: the rounding of a step and of its product with a rate, each half a last place of the change, and that of dt; and
+/// the last places of a low word, which is half a last place of the result at most. Worst seen: half of it.
+const TWO_WORDS: Tolerance = Tolerance { change: 2.0 * EPSILON, result: EPSILON * EPSILON };
+/// From 1 to the next number of single precision.
+const EPSILON: f64 = f32::EPSILON as f64;
 /// The contents after the last element of a field, and of all of a scratch field: a small f32, different in every field, so that a kernel
 /// which copies between these regions is detected.
 fn sentinel(place: usize) -> [u8; 4] {
@@ -161,7 +176,21 @@ pub async fn compare_while(
             let anew = first || kernel.size(name).is_some() && !matches!(start, Array::Uint(_));
             let made = anew.then(|| start.like(&vec![0; usize::try_from(*bytes).unwrap_or(0)]));
             let start = made.as_ref().unwrap_or(start);
-            let mut verdict = judge((start, &want, &kind.like(data)), *parts, None, &[]);
+            let mut arrays = [start.clone(), want, kind.like(data)];
+            let mut tolerance = SINGLE;
+            // A low word says nothing alone: the sum of both is compared.
+            if let Some(high) = high_words(name) {
+                let device = kind.like(&gpu.bytes(high, 0, *bytes).await?);
+                let own = fields.iter().position(|(field, ..)| field == high).and_then(|place| before[place].clone());
+                let highs =
+                    [own.unwrap_or_else(|| device.clone()), host.get(high).unwrap_or_else(|| device.clone()), device];
+                let [a, b, c] = arrays;
+                let [x, y, z] = highs;
+                arrays = [joined(x, &a), joined(y, &b), joined(z, &c)];
+                tolerance = TWO_WORDS;
+            }
+            let [start, want, got] = &arrays;
+            let mut verdict = judge((start, want, got), *parts, tolerance, None, &[]);
             verdict.conditioned = verdict.worst;
             if !verdict.good() {
                 if others.is_none() {
@@ -169,7 +198,7 @@ pub async fn compare_while(
                     others = Some(nudged(reference, &inputs.collect::<Vec<_>>(), world)?);
                 }
                 let (sway, aside) = others.as_ref().map(|others| others.of(name)).unwrap_or_default();
-                verdict.conditioned = judge((start, &want, &kind.like(data)), *parts, sway.as_ref(), &aside).worst;
+                verdict.conditioned = judge((start, want, got), *parts, tolerance, sway.as_ref(), &aside).worst;
             }
             (verdict.kernel, verdict.field, verdict.spilled) = (kernel.name.clone(), name.clone(), spilled);
             verdicts.push(verdict);
@@ -208,6 +237,7 @@ fn fields(kernel: &Kernel, count: u32) -> Vec<(String, u64, Array, usize)> {
 fn judge(
     (before, want, got): (&Array, &Array, &Array),
     members: usize,
+    tolerance: Tolerance,
     sway: Option<&Array>,
     aside: &[Array],
 ) -> Verdict {
@@ -244,8 +274,8 @@ fn judge(
         let error = parts(*got - *want);
         let size = parts(*want);
         for p in 0..2 {
-            let allowed = TOLERANCE * change[p].max(usual[i % members][p])
-                + LAST_PLACES * f64::from(f32::EPSILON) * size[p]
+            let allowed = tolerance.change * change[p].max(usual[i % members][p])
+                + tolerance.result * size[p]
                 + f64::from(f32::MIN_POSITIVE)
                 + 4.0 * sway.get(i).map_or(0.0, |s| s[p].max(mean[p]));
             let off = other(i).map(|other| parts(*got - *other)[p]).fold(error[p], f64::min);

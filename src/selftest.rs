@@ -52,6 +52,8 @@ pub struct Questions {
     pub long_loop: Source,
     /// `shaders/selftest/arithmetic.wgsl`
     pub arithmetic: Source,
+    /// `shaders/selftest/numbers.wgsl`
+    pub numbers: Source,
 }
 
 impl Default for Questions {
@@ -59,6 +61,7 @@ impl Default for Questions {
         Self {
             long_loop: crate::shader!("selftest/long_loop.wgsl"),
             arithmetic: crate::shader!("selftest/arithmetic.wgsl"),
+            numbers: crate::shader!("selftest/numbers.wgsl"),
         }
     }
 }
@@ -70,6 +73,7 @@ impl Default for Questions {
 pub async fn examine(gpu: &mut Gpu, questions: &Questions) -> Result<Vec<Finding>, Error> {
     let mut findings = vec![loops(gpu, &questions.long_loop).await?];
     findings.extend(arithmetic(gpu, &questions.arithmetic).await?);
+    findings.extend(numbers(gpu, &questions.numbers).await?);
     Ok(findings)
 }
 
@@ -165,6 +169,44 @@ async fn arithmetic(gpu: &mut Gpu, source: &Source) -> Result<Vec<Finding>, Erro
         "a division is {division} units in the last place from the nearest, a square root {root} (WGSL allows 2.5 and about 4)"
     );
     Ok(vec![sums, nan, fma, Finding { name: "division, root", outcome, text }])
+}
+
+/// What a driver may do as it likes, and motes does not rely on.
+async fn numbers(gpu: &mut Gpu, source: &Source) -> Result<Vec<Finding>, Error> {
+    // The product is 1 + 2⁻¹⁰ + 3 · 2⁻²⁴: rounded first, its end becomes 4 · 2⁻²⁴.
+    let (large, small, angle) = (3e38_f32, 1.5e-38_f32, 2.5_f32);
+    let (a, b, c) = (1.0 + f32::exp2(-12.0), 1.0 + 3.0 * f32::exp2(-12.0), -(1.0 + f32::exp2(-10.0)));
+    let answer = ask(gpu, source.clone(), &[large, small, a, b, c, angle].map(f32::to_bits)).await?;
+    let word = |i: usize| answer.get(i).copied().unwrap_or(u32::MAX);
+    let float = |i: usize| f32::from_bits(word(i));
+    let finding = |name, outcome, text: &str| Finding { name, outcome, text: text.to_owned() };
+    let infinity = if float(0) == f32::INFINITY && word(1) == 1 {
+        finding("infinity", Outcome::Pass, "a sum beyond 3.4e38 is infinite, and greater than what is finite")
+    } else {
+        let text = format!("6e38 is {:e}, and greater than 3e38: {}; motes tests the bits", float(0), word(1) == 1);
+        finding("infinity", Outcome::Warn, &text)
+    };
+    let denormals = match float(2) {
+        x if x.to_bits() == (small * 0.5).to_bits() => finding("denormals", Outcome::Pass, "are kept"),
+        0.0 => finding("denormals", Outcome::Pass, "are flushed to 0; motes does not rely on them"),
+        _ => finding("denormals", Outcome::Warn, "half of 1.5e-38 is wrong; motes does not rely on it"),
+    };
+    let contraction = match float(3) {
+        x if x.to_bits() == (a * b + c).to_bits() => {
+            finding("contraction", Outcome::Pass, "a · b + c is rounded twice")
+        }
+        x if x.to_bits() == a.mul_add(b, c).to_bits() => {
+            let text =
+                "a · b + c is rounded once: results differ in their last places from those of drivers that round twice";
+            finding("contraction", Outcome::Pass, text)
+        }
+        _ => finding("contraction", Outcome::Fail, "a · b + c is wrong"),
+    };
+    let error = (float(4) - angle.sin()).abs();
+    let sine = format!("off by {error:.0e} at {angle} (WGSL allows 5e-4; motes has its own where it matters)");
+    // NaN is an error, too.
+    let outcome = if error <= f32::exp2(-11.0) { Outcome::Pass } else { Outcome::Fail };
+    Ok(vec![infinity, denormals, contraction, Finding { name: "sine", outcome, text: sine }])
 }
 
 async fn timestamps(gpu: &mut Gpu) -> Result<Finding, Error> {

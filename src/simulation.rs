@@ -269,7 +269,7 @@ impl<B: Backend> Simulation<B> {
         self.may_write(field.name, &array, first)?;
         self.unrepeatable();
         self.begun &= field.name != POSITION.name && field.name != VELOCITY.name;
-        self.backend.write_at(field.name, first, &array)
+        self.store.fill(&mut self.backend, field.name, first, &array)
     }
     /// The state at the end of the last step, with the column `potential` and all links, motions, births and drains. It
     /// evaluates the forces once more, which does not change the run.
@@ -291,19 +291,9 @@ impl<B: Backend> Simulation<B> {
     pub async fn snapshot_of(&mut self, columns: &[&str]) -> Result<State, Error> {
         self.settle().await?;
         let (state, alarm) = loop {
-            let alarm = self.alarm().await?;
-            self.sound(&alarm)?;
-            self.repeatable(None)?;
-            // The start plan computes the masses of a fluid's walls and its rest density.
-            if self.begins {
-                self.begin()?;
-            }
-            self.backend.run(&self.measure.0, 1)?;
+            self.begin_measurement().await?;
             let state = self.gathered(&[columns, &["potential"]].concat()).await;
-            // The laws were evaluated once more.
-            let alarm = self.alarm().await?;
-            self.backend.run(&self.measure.1, 1)?;
-            if !self.settle().await? {
+            if let Some(alarm) = self.end_measurement().await? {
                 break (state, alarm);
             }
         };

@@ -68,7 +68,8 @@ fn assert_none(rule: &str, faults: &[String]) {
 fn rooms_are_small() {
     let long = |ending, most: usize| -> Vec<String> {
         // The lists of `typed` are written from the registers, and as long as these.
-        let files = files(ending).into_iter().filter(|f| !f.path.starts_with("src/typed/"));
+        let files =
+            files(ending).into_iter().filter(|f| !f.path.starts_with("src/typed/") || f.path == "src/typed/mod.rs");
         let files = files.map(|f| (f.text.lines().count(), f.path));
         files.filter(|(lines, _)| *lines > most).map(|(lines, path)| format!("{path}: {lines}")).collect()
     };

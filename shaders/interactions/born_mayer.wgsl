@@ -3,7 +3,6 @@
 // shifted so that energy and force end at the range R (Fennell & Gezelter 2006):  U(r) − U(R) − (r − R) U'(R).
 struct Params { unused_word: u32, coulomb: f32, damping: f32, range: f32, end_value: f32, end_slope: f32, own: f32 }
 struct Pair { @size(8) unused_word: u32, repulsion: f32, decay: f32, dispersion: f32, dispersion_8: f32, end_value: f32, end_slope: f32 }
-struct Sum { force: vec3f, energy: f32 }
 
 @group(3) @binding(0) var<uniform> params: Params;
 @group(3) @binding(1) var<uniform> pair_table: array<Pair, 64>; // of 8 species
@@ -17,10 +16,8 @@ fn erfc(x: f32, gaussian: f32) -> f32 {
     return t * (0.254829592 + t * (-0.284496736 + t * (1.421413741 + t * (-1.453152027 + t * 1.061405429)))) * gaussian;
 }
 
-fn gather(me: Particle, you: Particle, r: vec3f, sum: ptr<function, Sum>) {
+fn energy(me: Particle, you: Particle, distance: f32, inverse: f32) -> Energy {
     let pair = pair_table[pair_index(species[me.index], species[you.index])];
-    let inverse = inverseSqrt(dot(r, r));
-    let distance = dot(r, r) * inverse;
     let square = inverse * inverse;
     let sixth = square * square * square;
 
@@ -36,13 +33,7 @@ fn gather(me: Particle, you: Particle, r: vec3f, sum: ptr<function, Sum>) {
     slope -= charges * ((near + TWO_BY_ROOT_PI * params.damping * gaussian) * inverse + params.end_slope);
 
     let shift = pair.end_slope + charges * params.end_slope;
-    (*sum).force += (slope * inverse) * r;
-    (*sum).energy += value - (distance - params.range) * shift;
-}
-
-fn merge(total: ptr<function, Sum>, part: Sum) {
-    (*total).force += part.force;
-    (*total).energy += part.energy;
+    return Energy(value - (distance - params.range) * shift, slope);
 }
 
 fn finish(me: Particle, sum: Sum) -> vec4f {

@@ -19,7 +19,7 @@ fn sees_lamp(p: vec3f, normal: vec3f, jitter: vec2f) -> f32 {
     let inside = all(at >= vec2f(0.0)) && all(at < vec2f(f32(frame.map)));
     if inside && lit[u32(at.y) * frame.map + u32(at.x)] < key(-dot(q, LAMP) - BIAS * texel) { return 0.0; }
     let way = LAMP + WIDTH * (jitter.x * LAMP_RIGHT + jitter.y * LAMP_UP);
-    return select(0.0, 1.0, meet(q, way, 0.0).way >= NEVER);
+    return select(0.0, 1.0, meet(q, way, 0.0, false).way >= NEVER);
 }
 
 // `view` leads to the eye.

@@ -44,7 +44,7 @@ fn sample_at(place: vec2f, id: u32, jitter: vec2f) -> Sample {
     let eye = frame.distance > 0.0;
     let o = select(vec3f(off, 0.0), vec3f(0.0, 0.0, frame.distance), eye);
     let d = select(vec3f(0.0, 0.0, -1.0), vec3f(off / frame.distance, -1.0), eye);
-    let m = meet(o, d, select(-NEVER, NEAR * frame.distance, eye));
+    let m = meet(o, d, select(-NEVER, NEAR * frame.distance, eye), true);
     if id != NONE {
         let f = facet_of(id);
         let w = parts(f, place);

@@ -1,8 +1,9 @@
 // Where rays intersect solids: a ball or capsule (a segment along its own z, and all within a radius of it), a box by its slabs
-// (Kay and Kajiya 1986), or a plane across its own z, seen from above. In the picture's axes.
+// (Kay and Kajiya 1986), a plane across its own z, seen from above, or
+// the surface of a cone about its own z, seen from within alone, so that it is cut open towards the eye. In the picture's axes.
 struct Solid {
     place: vec3f, radius: f32,
-    size: vec3f,  shape: u32, // half of a box's sides; half of a segment in z; of a plane the squares of its grid in x
+    size: vec3f,  shape: u32, // half of a box's sides; half of a segment or a cone in z; of a plane the squares of its grid, of a cone its upper radius in x
     turn: vec4f,              // from its own axes, as a quaternion
 }
 @group(1) @binding(12) var<storage, read> solid: array<Solid>;
@@ -12,6 +13,7 @@ struct Meeting { way: f32, normal: vec3f, number: u32 }
 const ROUND: u32 = 0u;
 const BOX: u32 = 1u;
 const PLANE: u32 = 2u;
+const CONE: u32 = 3u;
 const NEVER: f32 = 1e30;
 
 fn turned(q: vec4f, v: vec3f) -> vec3f { return v + 2.0 * cross(q.xyz, cross(q.xyz, v) + q.w * v); }
@@ -49,8 +51,26 @@ fn meet_box(o: vec3f, d: vec3f, s: Solid) -> vec4f {
     return vec4f(-sign(d) * first, select(way, NEVER, way > min(leave.x, min(leave.y, leave.z))));
 }
 
-// The nearest of all that is further along than `least`.
-fn meet(o: vec3f, d: vec3f, least: f32) -> Meeting {
+// Where the ray leaves the cone: the root at which the square of the distance from the axis overtakes that of the radius.
+fn meet_cone(o: vec3f, d: vec3f, s: Solid) -> vec4f {
+    let slope = 0.5 * (s.size.x - s.radius) / s.size.z;
+    let wide = 0.5 * (s.size.x + s.radius) + slope * o.z;
+    let a = dot(d.xy, d.xy) - slope * slope * d.z * d.z;
+    let b = dot(o.xy, d.xy) - slope * d.z * wide;
+    let c = dot(o.xy, o.xy) - wide * wide;
+    let rest = b * b - a * c;
+    let root = sqrt(max(rest, 0.0));
+    // Of two forms that which does not cancel.
+    var way = -c / max(b + root, 1e-30);
+    if b < 0.0 { way = (root - b) / select(a, 1e-9, abs(a) < 1e-9); }
+    let p = o + way * d;
+    let radius = wide + slope * way * d.z;
+    let hit = rest >= 0.0 && abs(p.z) <= s.size.z && radius > 0.0;
+    return vec4f(normalize(vec3f(-p.xy, slope * radius)), select(NEVER, way, hit));
+}
+
+// The nearest of all that is further along than `least`. What is cut open has no shadow.
+fn meet(o: vec3f, d: vec3f, least: f32, open: bool) -> Meeting {
     var best = Meeting(NEVER, vec3f(), NONE);
     for (var k = 0u; k < frame.solids; k += 1u) {
         let s = solid[k];
@@ -59,7 +79,8 @@ fn meet(o: vec3f, d: vec3f, least: f32) -> Meeting {
         var m = vec4f(0.0, 0.0, 1.0, -own.z / way.z);
         if s.shape == ROUND { m = meet_round(own, way, s); }
         if s.shape == BOX { m = meet_box(own, way, s); }
-        let front = s.shape != PLANE || way.z < 0.0;
+        if s.shape == CONE { m = meet_cone(own, way, s); }
+        let front = (s.shape != PLANE || way.z < 0.0) && (s.shape != CONE || open);
         if front && m.w > least && m.w < best.way { best = Meeting(m.w, turned(s.turn, m.xyz), k); }
     }
     return best;

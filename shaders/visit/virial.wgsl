@@ -1,5 +1,5 @@
 // The virial of forces of pairs (Clausius 1870):  W = −½ Σ r ⊗ F,  r from me to you and F the force on me: each of a pair has half of it.
-// It is joined with a law whose functions are renamed. The force of a pair is that of a sum with one neighbour; such forces must add up to the
+// It is joined with a law under other names of its functions. The force of a pair is that of a sum with one neighbour; such forces must add up to the
 // force of all neighbours.
 struct Sum { normal: vec3f, size: f32, shear: vec3f, force: vec3f, whole: PairSum }
 

@@ -25,7 +25,7 @@ pub fn check(bounds: &Bounds) -> Result<(), Error> {
     }
     for (axis, name) in AXES.into_iter().enumerate() {
         let (low, high, side) = (bounds.low[axis], bounds.high[axis], bounds.sides[axis]);
-        let from_to = format!("the box reaches along {name} from {low} to {high}");
+        let from_to = format!("the box reaches along {name} from {low:?} to {high:?}");
         if !(low.abs() <= FARTHEST && high.abs() <= FARTHEST) {
             return Err(Error::Scene(format!("{from_to}: both must be numbers of at most {FARTHEST:e}")));
         }
@@ -61,8 +61,8 @@ pub fn holds(bounds: &Bounds, position: &[DVec3], velocity: &[DVec3]) -> Result<
         if let Some(id) = out {
             let (z, vz) = (position[id].z, velocity[id].z);
             return Err(Error::Scene(format!(
-                "particle {id} is at z = {z} and moves along z with {vz}, and in 2 dimensions all is in the plane z = 0: \
-                 make both 0, or take 3 dimensions"
+                "particle {id} is at z = {z} and moves along z with {vz}, and in 2 dimensions all particles are in the plane z = 0: \
+                 set both to 0, or set dimensions = 3"
             )));
         }
     }
@@ -73,7 +73,7 @@ pub fn holds(bounds: &Bounds, position: &[DVec3], velocity: &[DVec3]) -> Result<
         if let Some(id) = position.iter().position(|x| !within(x)) {
             let x = position[id][axis];
             return Err(Error::Scene(format!(
-                "particle {id} is at {name} = {x}, outside of the reflecting box, which reaches from {low} to {high} there: \
+                "particle {id} is at {name} = {x}, outside of the reflecting box, which reaches from {low:?} to {high:?} there: \
                  move it inside, or make the box larger"
             )));
         }

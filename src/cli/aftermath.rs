@@ -9,11 +9,11 @@ use motes::{Error, Setup, State};
 use super::failure::Failure;
 use motes::run::written;
 
-/// So many neighbours are named.
+/// The maximum number of linked particles that are named.
 const NAMED: usize = 8;
 
-/// Writes the last good state in the formats of the run that are numbers, or as arrays where there is none, and says
-/// where; and what ties the particle at fault. `advice` is what is known of the step.
+/// Writes the last valid state in the numerical formats of the run, or as NPZ if it has none, and reports its files
+/// and the links of the failing particle. `advice` is the known reason, such as a time step that is too long.
 pub fn explain(
     error: Error,
     setup: &Setup,
@@ -41,7 +41,7 @@ pub fn explain(
     Failure::Explained(error, words.trim_start().to_owned())
 }
 
-/// What loses the numbers of a fluid.
+/// Usual reasons for NaN in a fluid.
 fn of_a_fluid(setup: &Setup) -> Option<&'static str> {
     motes::diagnose::flows(&setup.forces).then_some(
         "in a fluid the cause is a time step too long for its speed of sound or viscosity (`motes check` reports the limit), a flow \
@@ -49,10 +49,10 @@ fn of_a_fluid(setup: &Setup) -> Option<&'static str> {
     )
 }
 
-/// The particles that links tie to one.
+/// The particles that are linked to a particle.
 fn neighbors(setup: &Setup, particle: u32) -> String {
     let links = &setup.state.links;
-    // Links name places.
+    // Links hold rows, not ids.
     let ids = setup.state.ids();
     let Some(place) = setup.state.place_of(particle).and_then(|place| u32::try_from(place).ok()) else {
         return String::new();

@@ -14,7 +14,7 @@ Exit codes:
   6   NaN or infinity, a runaway, too many neighbours, a step below dt_min, or a user's law with too many loop iterations
   7   the device was lost, ran out of memory or did not respond, or no thread could be started
   8   a result could not be written, or would overwrite those of another run
-  9   `compare` or `doctor` found a disagreement
+  9   `compare`, `doctor` or `validate` found a disagreement
   75  stopped by Ctrl-C, SIGTERM, SIGHUP or --max-hours; all results up to that step and a checkpoint are written
   130 ended immediately by a second signal
 
@@ -56,6 +56,8 @@ pub enum Command {
     Info(InfoArgs),
     /// Integrate a harmonic oscillator and an exponential decay with every integrator, and plot which are stable
     Stability(StabilityArgs),
+    /// Run scenes with known results, and compare with the published numbers
+    Validate(ValidateArgs),
     /// Measure how fast this machine steps scenes: gravity, a tree, neighbours, springs and fluids
     Bench(BenchArgs),
     /// List adapters, and test driver features that simulations rely on
@@ -90,7 +92,7 @@ pub struct SceneArgs {
     /// Run this many steps instead of the scene's own number
     #[arg(long, value_name = "N", conflicts_with = "until")]
     pub steps: Option<u64>,
-    /// Run until this time instead
+    /// Run until this time instead of the scene's own end
     #[arg(long, value_name = "T")]
     pub until: Option<f64>,
     /// Set a value of the scene, such as simulation.dt=0.01 or force.0.g=2; may be repeated
@@ -208,7 +210,7 @@ pub struct ResumeArgs {
     pub show: ShowArgs,
 }
 
-/// What ends a run before its last step.
+/// Options that end a run before its last step.
 #[derive(Debug, Clone, ClapArgs)]
 pub struct StopArgs {
     /// Stop after this many hours, with a checkpoint from which --resume and `motes resume` continue
@@ -216,7 +218,7 @@ pub struct StopArgs {
     pub max_hours: Option<f64>,
 }
 
-/// What a run prints.
+/// The output of a run on the terminal.
 #[derive(Debug, Clone, ClapArgs)]
 pub struct ShowArgs {
     /// Print events as lines of JSON on standard output; `sweep` prints one object
@@ -234,7 +236,7 @@ pub struct CompareArgs {
     /// Number of steps for which device and references are compared
     #[arg(long, value_name = "N", default_value_t = 10, value_parser = clap::value_parser!(u32).range(1..))]
     pub steps: u32,
-    /// Set a value of the scene; may be repeated
+    /// Set a value of the scene, such as simulation.dt=0.01 or force.0.g=2; may be repeated
     #[arg(long = "set", value_name = "KEY=VALUE")]
     pub overrides: Vec<String>,
     /// Let the scene name files outside of its own folder
@@ -253,9 +255,9 @@ pub struct CompareArgs {
 
 #[derive(Debug, ClapArgs)]
 pub struct ScenesArgs {
-    /// Print the text of this one; with --keys, the keys of this force, shape or section
+    /// Print the text of this scene; with --keys, the keys of this force, shape, measure or section
     pub name: Option<String>,
-    /// Print every key of scenes, of forces and of shapes, with its unit and default
+    /// Print all keys of scenes, forces, shapes and measures, with their units and defaults
     #[arg(long)]
     pub keys: bool,
     /// Print the result as JSON
@@ -280,7 +282,7 @@ pub struct ConvertArgs {
     pub from: PathBuf,
     /// The file that is written
     pub to: PathBuf,
-    /// Precision of the numbers
+    /// The precision of the numbers that are written
     #[arg(long, value_enum, default_value = "auto")]
     pub precision: Width,
     /// Replace an existing file
@@ -321,6 +323,32 @@ pub struct StabilityArgs {
     pub device: DeviceArgs,
 }
 
+#[derive(Debug, ClapArgs)]
+pub struct ValidateArgs {
+    /// Claims or families, as --list shows them; none: all that take some seconds
+    pub names: Vec<String>,
+    /// The long ones too
+    #[arg(long)]
+    pub all: bool,
+    /// List the claims, and run none
+    #[arg(long, conflicts_with_all = ["names", "all", "controls", "output", "overwrite"])]
+    pub list: bool,
+    /// Run each scene once more with a value by which its claim has to fail
+    #[arg(long)]
+    pub controls: bool,
+    /// A folder for the table (validation.md) and the numbers (validation.json)
+    #[arg(short, long, value_name = "FOLDER")]
+    pub output: Option<PathBuf>,
+    /// Replace those of an earlier run
+    #[arg(long, requires = "output")]
+    pub overwrite: bool,
+    /// Print the result as JSON
+    #[arg(long)]
+    pub json: bool,
+    #[command(flatten)]
+    pub device: DeviceArgs,
+}
+
 fn positive(text: &str) -> Result<f64, String> {
     match text.parse::<f64>() {
         Ok(x) if x > 0.0 && x < 1e6 => Ok(x),
@@ -328,10 +356,10 @@ fn positive(text: &str) -> Result<f64, String> {
     }
 }
 
-/// What is measured.
+/// The subject of a benchmark.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub enum Topic {
-    /// All of them but `kernels`
+    /// All subjects except `kernels`
     All,
     /// All pairs: `plummer`
     Gravity,
@@ -359,13 +387,13 @@ pub struct BenchArgs {
     /// For `kernels`: a scene file, or the name of a scene that `motes scenes` lists
     #[arg(required_if_eq("topic", "kernels"))]
     pub scene: Option<String>,
-    /// For `kernels`: set a value of the scene, such as particles.0.count=1000; may be given again
+    /// For `kernels`: set a value of the scene, such as particles.0.count=1000; may be repeated
     #[arg(long = "set", value_name = "KEY=VALUE", requires = "scene")]
     pub overrides: Vec<String>,
-    /// The largest number of particles, about: sizes grow by four up to it [default: the smallest size only]
+    /// The approximate maximum number of particles: each size has four times the particles of the one before [default: the smallest size only]
     #[arg(long, value_name = "N")]
     pub to: Option<u32>,
-    /// Leave out sizes of a topic that are expected to end later than this after its start [s]
+    /// Leave out sizes with which a topic is expected to take longer than this [s]
     #[arg(long, value_name = "S")]
     pub seconds: Option<f64>,
     /// Repetitions of each measurement; the median is reported

@@ -1,6 +1,6 @@
 //! `motes check`
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 use std::time::{Duration, Instant};
 
 use motes::kernel::{ACCELERATION, Backend};
@@ -16,7 +16,7 @@ use super::load::{self, Loaded};
 use super::words::duration;
 use motes::diagnose::advice;
 
-/// Checks a scene: its faults, its memory, and the time that a run would take.
+/// Checks a scene, and predicts the memory and the time of a run.
 pub async fn check(args: &CheckArgs) -> Result<(), Failure> {
     let report = examined(args).await?;
     if args.json {
@@ -27,7 +27,7 @@ pub async fn check(args: &CheckArgs) -> Result<(), Failure> {
     Ok(())
 }
 
-/// What is known of a scene before it runs.
+/// The report on a scene before it runs.
 struct Report {
     scene: String,
     particles: u32,
@@ -49,7 +49,7 @@ struct Report {
 /// Pictures and frames of a run.
 struct Pictures {
     count: u64,
-    /// How long one takes by the references, and its size; a device draws in next to no time.
+    /// The time of one by the references, and its size; the time of a device is negligible.
     each: Option<(Duration, String)>,
 }
 
@@ -146,18 +146,18 @@ async fn examined(args: &CheckArgs) -> Result<Report, Failure> {
     })
 }
 
-/// Runs some steps, for about a second at most, and gives the time of one; and the particle of the largest acceleration in the first.
+/// Runs some steps, for about a second at most. Returns the time of a step, and the particle with the largest acceleration in the first.
 async fn measure<B: Backend>(
     mut simulation: Simulation<B>,
     setup: &Setup,
     steps: u64,
 ) -> Result<(Duration, (usize, f64)), Failure> {
-    // The first step pays for what later ones have ready.
+    // The first step compiles kernels and allocates buffers.
     simulation.step(1)?;
-    let held: BTreeSet<usize> = setup.state.held.iter().map(|one| one.id as usize).collect();
+    let fixed = setup.state.fixed();
     let all = simulation.read(ACCELERATION).await?.into_iter().map(|a| f64::from(a.truncate().length())).enumerate();
-    let most =
-        all.filter(|(id, _)| !held.contains(id)).fold((0, 0.0), |most, one| if one.1 > most.1 { one } else { most });
+    let is_free = |id: usize| !fixed.get(id).copied().unwrap_or(false);
+    let most = all.filter(|(id, _)| is_free(*id)).fold((0, 0.0), |most, one| if one.1 > most.1 { one } else { most });
     let (start, mut batch, mut done) = (Instant::now(), 1, 0);
     loop {
         simulation.step(batch)?;
@@ -170,7 +170,7 @@ async fn measure<B: Backend>(
     }
 }
 
-/// Bytes, for people.
+/// A number of bytes with its unit.
 pub fn size(bytes: u64) -> String {
     match bytes {
         0..1024 => format!("{bytes} B"),

@@ -14,11 +14,11 @@ use super::engine;
 use super::failure::Failure;
 use super::far;
 
-/// Force errors beyond this median fail: the rounding of one f32 is 6e-8, and a sum of many adds some of it up.
+/// The maximum median of the force errors: the rounding error of one f32 is 6e-8, and those of a sum accumulate.
 const MEDIAN: f64 = 1e-6;
-/// What total energies may differ by: forces and velocities are good to some 1e-6.
+/// The maximum difference of total energies: forces and velocities are accurate to about 1e-6.
 const ENERGY: f64 = 1e-5;
-/// Rounds of kernel-by-kernel comparison: the first step from a fresh state, and some that are not fresh.
+/// The number of steps that are compared kernel by kernel: the first one, and some later ones.
 const ROUNDS: usize = 3;
 
 /// Compares the device with the references.
@@ -34,13 +34,13 @@ pub async fn compare(args: &CompareArgs) -> Result<(), Failure> {
     let over = steps(&found, &setup, args.steps).await?;
     let forces: Vec<&Verdict> =
         verdicts.iter().filter(|v| v.field == "acceleration" && v.kernel != "clear" && v.good()).collect();
-    // A weak force is rounded to what a strong one, added before it, leaves room for.
+    // The rounding error of a weak force is that of a strong one to which it is added.
     let median = forces.iter().map(|v| v.relative[0]).reduce(f64::min).unwrap_or(0.0);
-    // Where inputs that are rounded leave forces open, they leave energies open too.
+    // Where rounded inputs leave forces undetermined, energies are undetermined too.
     let energy = over.energy <= ENERGY || !verdicts.iter().all(Verdict::good);
     let faults = [
         (!verdicts.iter().all(Verdict::sound), "a kernel is WRONG".to_owned()),
-        // NaN is more than anything.
+        // NaN counts as too large.
         (
             median.partial_cmp(&MEDIAN).is_none_or(Ordering::is_gt),
             format!("in the median forces differ by {median:.1e}, and {MEDIAN:.0e} is allowed"),
@@ -90,7 +90,7 @@ pub fn load(args: &CompareArgs, more: &[String]) -> Result<Scene, Failure> {
     })
 }
 
-/// Every kernel of some steps, each given the device's own inputs.
+/// Compares every kernel of some steps, each with the inputs that it had on the device.
 async fn kernels(found: &gpu::Found, setup: &Setup) -> Result<Vec<Verdict>, Failure> {
     let count = setup.check()?;
     let mut gpu = Gpu::new(&found.device, &found.queue, count)?;
@@ -115,7 +115,7 @@ async fn kernels(found: &gpu::Found, setup: &Setup) -> Result<Vec<Verdict>, Fail
     Ok(worst)
 }
 
-/// How far apart device and references are after some steps.
+/// The differences between device and references after some steps.
 struct Over {
     /// rms and maximum \[length\]
     position: [f64; 2],
@@ -123,7 +123,7 @@ struct Over {
     scale: f64,
     /// |E − E'| / (|K| + |W|)
     energy: f64,
-    /// What the rms of the positions may be.
+    /// The maximum rms of the differences of positions.
     allowed: f64,
 }
 
@@ -146,7 +146,7 @@ async fn steps(found: &gpu::Found, setup: &Setup, steps: u32) -> Result<Over, Fa
     let distances: Vec<f64> = y.iter().map(|y| y.distance(center)).collect();
     let travelled = travelled(&b, setup);
     let scale = rms(&distances).max(y.iter().map(|y| y.length()).fold(0.0, f64::max) * 1e-3);
-    // Each step rounds a position to half a unit in the last place, and a force to some 1e-6 of the way it makes.
+    // In each step the error of a position grows by half a unit in the last place, and by about 1e-6 of the displacement by forces.
     let allowed = f64::from(f32::EPSILON) * rms(&y.iter().map(|y| y.length()).collect::<Vec<_>>()) * f64::from(steps)
         + 1e-5 * rms(&travelled) * f64::from(steps).sqrt();
     let (ea, eb) = (Energy::of(&a)?.total(), Energy::of(&b)?.total());
@@ -160,7 +160,7 @@ fn travelled(after: &State, setup: &Setup) -> Vec<f64> {
     after.position().iter().zip(before).map(|(x, y)| apart(setup, *x, *y)).collect()
 }
 
-/// The way from one place to the other's nearest image.
+/// The vector from a position to the nearest image of another.
 fn apart(setup: &Setup, x: DVec3, y: DVec3) -> f64 {
     setup.bounds.shortest(x - y).length()
 }

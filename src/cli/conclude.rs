@@ -10,7 +10,7 @@ use super::progress::Progress;
 use super::{course, film, summary};
 use motes::diagnose::Conserved;
 
-/// Tells how a run ended.
+/// Reports the end of a run.
 pub fn conclude(
     run: &Run,
     end: End,
@@ -44,7 +44,7 @@ pub fn conclude(
     }
     say(summary::speed(end.steps, count, end.stepping, took));
     clock.map(course::summary).into_iter().for_each(&say);
-    // Birds are driven: their energy has no meaning.
+    // The particles of a flock propel themselves: their energy is not meaningful.
     if conserved.energy || flock.is_none() {
         say(summary::energy(rows, &run.looks, conserved));
     }
@@ -60,7 +60,7 @@ pub fn conclude(
     if end.stopped { Err(Failure::Stopped) } else { Ok(()) }
 }
 
-/// The arguments of a command that runs on the same.
+/// The arguments that select the same device.
 fn on(device: &DeviceArgs) -> String {
     let backend = match device.backend {
         BackendChoice::Auto => "",

@@ -1,4 +1,4 @@
-//! How long a run is, in words.
+//! The length of a run, as text.
 
 use motes::kernel::Reason;
 use motes::scene::Scene;
@@ -6,7 +6,7 @@ use motes::settings::plain;
 use motes::simulation::Clock;
 use serde_json::{Value, json};
 
-/// `1000 steps of 0.001`, for people.
+/// The number and the length of steps, such as `1000 steps of 0.001`.
 pub fn words(scene: &Scene) -> String {
     match scene.adaptive_step {
         Some(adaptive_step) => {
@@ -21,7 +21,7 @@ pub fn steps(count: u64) -> String {
     if count == 1 { "1 step".to_owned() } else { format!("{count} steps") }
 }
 
-/// How long steps were, and why.
+/// The lengths of adaptive steps, and their limiting criteria.
 pub fn summary(clock: &Clock) -> String {
     let [shortest, longest] = clock.between;
     let all = clock.steps.max(1) as f64;
@@ -39,7 +39,7 @@ pub fn summary(clock: &Clock) -> String {
     )
 }
 
-/// The same for programs.
+/// The same as JSON.
 pub fn event(clock: Option<&Clock>) -> Value {
     clock.map_or(Value::Null, |clock| {
         let reasons: serde_json::Map<_, _> =

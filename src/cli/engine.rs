@@ -1,4 +1,4 @@
-//! Where a scene runs: an adapter of this machine, or the references when there is none.
+//! The backend of a command: an adapter of this machine, or the references if there is none.
 
 use motes::formats::Precision;
 use motes::gpu::{self, Choice, Found};
@@ -10,16 +10,16 @@ use super::args::{BackendChoice, DeviceArgs, SceneArgs};
 use super::failure::Failure;
 use super::scale;
 
-/// What runs the kernels.
+/// A backend.
 pub enum Engine {
     /// A device.
     Gpu(Box<Found>),
-    /// The references, and why, unless they were asked for.
+    /// The references, and the reason if they were not requested.
     Cpu(Option<String>),
 }
 
 impl Engine {
-    /// Chooses by the arguments.
+    /// Chooses a backend by the arguments.
     pub async fn choose(args: &DeviceArgs) -> Result<Self, Error> {
         if args.backend == BackendChoice::Cpu {
             if args.adapter.is_some() {
@@ -34,7 +34,7 @@ impl Engine {
         }
         Ok(Self::Gpu(Box::new(open(adapters, args.adapter.as_deref()).await?)))
     }
-    /// Its name, for people and for files.
+    /// Its name, for messages and for files.
     pub fn describe(&self) -> String {
         match self {
             Self::Gpu(found) => found.describe(),
@@ -45,20 +45,20 @@ impl Engine {
     pub fn precision(&self) -> Precision {
         if let Self::Cpu(_) = self { Precision::Double } else { Precision::Single }
     }
-    /// What plans are written for.
+    /// The limits for which plans are made.
     pub fn machine(&self, count: u32) -> Result<Machine, Error> {
         Ok(match self {
             Self::Gpu(found) => Gpu::new(&found.device, &found.queue, count)?.machine(),
             Self::Cpu(_) => Cpu::new(count)?.machine(),
         })
     }
-    /// What a user should know of it, and of what it makes of a setup.
+    /// Remarks on it, and on a setup that runs on it.
     pub fn remarks(&self, setup: &Setup) -> Result<Vec<String>, Failure> {
         let single = matches!(self, Self::Gpu(_));
         let of_machine = motes::diagnose::of_machine(setup, self.machine(1)?, single)?;
         Ok(self.own().into_iter().chain(of_machine.iter().map(ToString::to_string)).collect())
     }
-    /// What a user should know of it.
+    /// Remarks on it.
     pub fn own(&self) -> Vec<String> {
         match self {
             Self::Cpu(Some(reason)) => {
@@ -74,7 +74,7 @@ impl Engine {
     }
 }
 
-/// Opens an adapter, with a name or the best.
+/// Opens the adapter of this name, or the best.
 pub async fn open(adapters: Vec<motes::wgpu::Adapter>, name: Option<&str>) -> Result<Found, Error> {
     let choice = name.map_or(Choice::Best, |name| Choice::Named(name.to_owned()));
     gpu::open(gpu::choose(adapters, &choice)?).await
@@ -85,7 +85,7 @@ pub fn load(args: &SceneArgs) -> Result<Scene, Failure> {
     load_with(args, &[])
 }
 
-/// The same, with more values set.
+/// The same with additional overrides.
 pub fn load_with(args: &SceneArgs, more: &[String]) -> Result<Scene, Failure> {
     let mut overrides = args.overrides.clone();
     overrides.extend_from_slice(more);

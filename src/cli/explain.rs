@@ -12,7 +12,7 @@ use super::engine::Engine;
 use super::failure::Failure;
 use super::load::{self, Loaded};
 
-/// What a law may define, use and bind.
+/// The documentation of what a law may define, use and bind.
 const LAW: &str = include_str!("../../docs/pages/reference/law.md");
 
 /// Prints the plan of a step, and what each kernel reads and writes; or the language of a user's law.
@@ -70,7 +70,7 @@ pub async fn explain(args: &ExplainArgs) -> Result<(), Failure> {
     Ok(())
 }
 
-/// The buffers that a kernel binds in such a way, each once.
+/// The names of the buffers that a kernel reads, or writes, each once.
 fn bound(kernel: &Kernel, access: Access) -> Vec<&str> {
     let mut names: Vec<&str> = Vec::new();
     for (field, _) in kernel.bindings().filter(|(_, b)| b.access == access) {
@@ -81,13 +81,13 @@ fn bound(kernel: &Kernel, access: Access) -> Vec<&str> {
     names
 }
 
-/// The files that it is joined from.
+/// The files of its shaders.
 fn files(kernel: &Kernel) -> Vec<&str> {
     let sources = kernel.passes.first().into_iter().flat_map(|pass| pass.shader.sources());
     sources.map(|source| source.file.as_ref()).filter(|file| !file.ends_with("world.wgsl")).collect()
 }
 
-/// All of its invocations.
+/// The number of its invocations.
 fn threads(kernel: &Kernel) -> u64 {
     kernel.passes.iter().map(|p| u64::from(p.threads.count) * u64::from(p.threads.layers)).sum()
 }

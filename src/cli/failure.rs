@@ -13,7 +13,7 @@ use super::progress::SCHEMA;
 /// Whether failures go to standard output as JSON, too.
 pub static JSON: OnceLock<bool> = OnceLock::new();
 
-/// A failure as an event, where JSON is asked for.
+/// Prints a failure as an event, if JSON was requested.
 pub fn event(code: u8, mut fields: Value) {
     if let (Some(true), Some(map)) = (JSON.get(), fields.as_object_mut()) {
         map.extend(
@@ -30,22 +30,22 @@ fn fault(one: &Diagnostic) -> Value {
         "label": one.excerpt.as_ref().map(|excerpt| &excerpt.label), "notes": one.notes })
 }
 
-/// Why a command did not end well.
+/// The failure of a command.
 pub enum Failure {
     /// The scene has faults.
     Scene(Diagnostics),
-    /// Something else went wrong.
+    /// Any other error.
     Error(Error),
-    /// Numbers were lost, and there is more to say.
+    /// An error of a run, and an explanation.
     Explained(Error, String),
-    /// Device and references disagree, or a self test failed; the table that says so is printed already.
+    /// Device and references disagree, a self test failed, or a claim does not hold; the table that says so is printed already.
     Disagreement,
     /// Stopped by a signal; everything up to there is written.
     Stopped,
 }
 
 impl Failure {
-    /// What it says.
+    /// Its message.
     pub fn words(&self) -> String {
         match self {
             Self::Scene(faults) => faults.to_string(),
@@ -55,7 +55,7 @@ impl Failure {
             Self::Stopped => "stopped".to_owned(),
         }
     }
-    /// Says it, and gives the exit code that `motes --help` lists.
+    /// Prints it, and returns the exit code that `motes --help` lists.
     pub fn report(self) -> ExitCode {
         let code = match &self {
             Self::Scene(faults) => faults.exit_code(),
@@ -72,13 +72,13 @@ impl Failure {
             }
             Self::Error(error) => event(code, json!({ "text": error.to_string() })),
             Self::Explained(error, more) => event(code, json!({ "text": error.to_string(), "more": more })),
-            // The document that was printed says it.
+            // The printed document contains it.
             Self::Disagreement | Self::Stopped => {}
         }
         match &self {
             Self::Scene(_) => note!("{}", self.words()),
             Self::Error(_) | Self::Explained(..) => note!("error: {}", self.words()),
-            // Said already.
+            // Printed already.
             Self::Disagreement | Self::Stopped => {}
         }
         ExitCode::from(code)

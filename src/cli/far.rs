@@ -1,4 +1,4 @@
-//! How exact forces are that take far groups as one.
+//! Errors of tree forces against direct summation.
 
 use motes::kernel::Backend;
 use motes::lockstep::{Truncation, truncation};
@@ -9,20 +9,20 @@ use super::args::CompareArgs;
 use super::compare::load;
 use super::failure::Failure;
 
-/// Targets that are compared with direct sums.
+/// The number of particles whose forces are compared with direct summation.
 const TARGETS: usize = 1000;
 
-/// How wrong the forces of such laws are at the start.
+/// Errors of the tree forces of a scene in its initial state.
 pub async fn errors(found: &gpu::Found, setup: &Setup) -> Result<Vec<Truncation>, Failure> {
     let gpu = Gpu::new(&found.device, &found.queue, setup.check()?)?;
     let mut simulation = Simulation::on(gpu, setup)?;
-    // Where the opening is relative, the accelerations at the start decide which groups are opened.
+    // The relative opening criterion depends on the initial accelerations.
     simulation.snapshot().await?;
     let problem = setup.problem(simulation.backend().machine())?;
     Ok(truncation(simulation.backend(), &setup.forces, &problem, TARGETS).await?)
 }
 
-/// The same for JSON.
+/// The same as JSON.
 pub fn rows(errors: &[Truncation]) -> Value {
     let three = |e: [f64; 3]| json!({ "median": e[0], "p99": e[1], "max": e[2] });
     let row = |e: &Truncation| {
@@ -32,7 +32,7 @@ pub fn rows(errors: &[Truncation]) -> Value {
     errors.iter().map(row).collect()
 }
 
-/// The same for a terminal.
+/// The same as text.
 pub fn print(errors: &[Truncation]) {
     for e in errors {
         out!("\n{}: {} targets against direct summation in f64: |a − a′| / |a′|", e.law, e.targets);
@@ -45,7 +45,7 @@ pub fn print(errors: &[Truncation]) {
     }
 }
 
-/// Errors over opening angles, with and without quadrupoles.
+/// Errors for several opening angles, with and without quadrupoles.
 pub async fn sweep(args: &CompareArgs, found: &gpu::Found) -> Result<(), Failure> {
     let mut rows = Vec::new();
     let mut header = !args.json;
@@ -84,7 +84,7 @@ pub async fn sweep(args: &CompareArgs, found: &gpu::Found) -> Result<(), Failure
     Ok(())
 }
 
-/// Which force of the scene is gravity.
+/// The index of the first force of gravity in the scene.
 fn gravity(args: &CompareArgs) -> Result<usize, Failure> {
     let mut scene = load(args, &[])?;
     let setup = scene.setup();

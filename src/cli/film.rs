@@ -9,7 +9,7 @@ use serde_json::json;
 
 use super::progress::Progress;
 
-/// Lines that say what became of the film of a run, which is in this folder.
+/// The report on the film of a run in this folder.
 pub fn lines(film: &Film, name: &str, folder: &Path, progress: &Progress) -> Vec<String> {
     let frames = film.done().len();
     if frames == 0 {
@@ -29,7 +29,7 @@ pub fn lines(film: &Film, name: &str, folder: &Path, progress: &Progress) -> Vec
     vec![line, video(film, name, folder, progress)]
 }
 
-/// A video, if ffmpeg is there; if not, or if it fails, a line says so.
+/// Encodes a video by ffmpeg. Returns a line about it, or about the reason why there is none.
 fn video(film: &Film, name: &str, folder: &Path, progress: &Progress) -> String {
     let (name, part) = (format!("{name}_film.mp4"), format!("{name}_film.part.mp4"));
     let to_part = arguments(film, &format!("../{part}"));
@@ -53,7 +53,7 @@ fn video(film: &Film, name: &str, folder: &Path, progress: &Progress) -> String 
         progress.event("video", json!({ "file": file, "frames": film.done().len(), "fps": film.rate() }));
         return format!("video: {name}, made by ffmpeg");
     };
-    // So that what ffmpeg has begun is not taken for a video.
+    // An incomplete file must not look like a video.
     let _ = std::fs::remove_file(folder.join(&part));
     let words = arguments(film, &format!("../{name}"));
     let by_hand = words.iter().fold("ffmpeg".to_owned(), |line, word| line + " " + &quoted(word));
@@ -62,7 +62,7 @@ fn video(film: &Film, name: &str, folder: &Path, progress: &Progress) -> String 
     format!("no video: {reason}; to make one, in {}: {by_hand}", place.display())
 }
 
-/// H.264 as every player knows it, which wants sides that are even. Earlier runs may have left more frames.
+/// H.264 as all players support it, which requires even sides. Earlier runs may have left more frames.
 fn arguments(film: &Film, to: &str) -> Vec<String> {
     let (rate, frames) = (film.rate().to_string(), film.done().len().to_string());
     let files = format!("frame_%0{}d.png", film.digits());
@@ -72,7 +72,7 @@ fn arguments(film: &Film, to: &str) -> Vec<String> {
     words.into_iter().chain(more).map(str::to_owned).collect()
 }
 
-/// A word for a shell.
+/// A word, quoted for a shell if necessary.
 fn quoted(word: &str) -> String {
     let plain = |c: char| c.is_ascii_alphanumeric() || "-_./%+:".contains(c);
     if word.chars().all(plain) { word.to_owned() } else { format!("'{}'", word.replace('\'', "'\\''")) }

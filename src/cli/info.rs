@@ -12,7 +12,7 @@ use serde_json::{Value, json};
 use super::args::InfoArgs;
 use super::failure::Failure;
 
-/// Says what a file of particles holds.
+/// Prints the contents of a file of particles.
 pub fn info(args: &InfoArgs) -> Result<(), Failure> {
     let path = &args.file;
     let contents = formats::contents(path)?;
@@ -92,7 +92,7 @@ fn as_json(args: &InfoArgs, state: &State, contents: &Contents, format: &str) ->
         "energy": energy, "left_out": unread.into_iter().chain(contents.left_out.iter().map(String::as_str)).collect::<Vec<_>>() }))
 }
 
-/// How many things of a kind are listed.
+/// The maximum length of a list.
 const SHOWN: usize = 12;
 
 fn extent(places: &[DVec3]) -> Option<(DVec3, DVec3)> {
@@ -104,7 +104,7 @@ fn corner(x: DVec3) -> String {
     format!("({}, {}, {})", number(x.x), number(x.y), number(x.z))
 }
 
-/// As many digits as single precision has.
+/// A number with the digits of single precision.
 fn number(x: f64) -> String {
     #[expect(clippy::cast_possible_truncation, reason = "for reading")]
     let narrow = x as f32;
@@ -136,7 +136,7 @@ fn range(values: &Array) -> String {
     }
 }
 
-/// Momentum and kinetic energy; the potential one where the file has its shares.
+/// Momentum and kinetic energy; and the potential energy if the file has the column `potential`.
 fn energies(state: &State) -> Result<(), Error> {
     let active = (0..state.len()).filter(|row| state.is_active(*row));
     let (mut mass, mut momentum, mut kinetic) = (0.0, DVec3::ZERO, 0.0);
@@ -156,7 +156,7 @@ fn energies(state: &State) -> Result<(), Error> {
     Ok(())
 }
 
-/// Whether a file has numbers of a column: those that all states have are in few files together.
+/// Whether a file has values of a column: few files have all columns of a state.
 fn is_there(column: &str, contents: &Contents) -> bool {
     let own: &[&str] = match column {
         "velocity" => &["vx", "vy", "vz"],
@@ -170,7 +170,7 @@ fn is_there(column: &str, contents: &Contents) -> bool {
     contents.headings.iter().any(|heading| own.contains(&heading.title.as_str()))
 }
 
-/// Whether a title of the file is of a column of the state.
+/// Whether a title in the file belongs to a column of the state.
 fn is_held(title: &str, state: &State) -> bool {
     let stem = title.rsplit_once('_').map_or(title, |(stem, _)| stem);
     let usual = ["x", "y", "z", "vx", "vy", "vz", "id", "name", "m"];

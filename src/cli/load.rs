@@ -1,4 +1,4 @@
-//! Scenes of arguments: loaded, judged, and divided into steps at which their springs are stable.
+//! Loads the scene of the arguments, examines its stability, and divides its steps if requested.
 
 use motes::diagnose::{Judged, Remark, culprit, limit, others, unsafe_steps};
 use motes::scene::Scene;
@@ -12,18 +12,18 @@ use super::failure::Failure;
 
 /// A scene, ready to run.
 pub struct Loaded {
-    /// Without its particles and forces, which are in the setup. Its remarks tell what its steps are to its springs.
+    /// The scene without its particles and forces, which are in the setup. Its remarks include those on stability.
     pub scene: Scene,
-    /// What the simulation is made of.
+    /// The setup of the simulation.
     pub setup: Setup,
     /// The stability limit by springs, if there are any.
     pub verdict: Option<Verdict>,
-    /// How its fluid starts, if there is one, and the lines about it; what is to be noted is among the scene's remarks.
+    /// The initial state of its fluid, if there is one, and lines about it; remarks on it are among those of the scene.
     pub start: Option<Start>,
     pub lines: Vec<String>,
 }
 
-/// Loads the scene of the arguments, with more values set; with `--auto-substeps` in steps at which its springs are stable.
+/// Loads the scene of the arguments with additional overrides; `--auto-substeps` divides its steps so that its springs are stable.
 pub async fn load(args: &SceneArgs, more: &[String]) -> Result<Loaded, Failure> {
     let mut loaded = judge(engine::load_with(args, more)?).await?;
     let (dt, steps, every) = (loaded.scene.dt, loaded.scene.steps, loaded.scene.output.every);
@@ -84,7 +84,7 @@ pub async fn load(args: &SceneArgs, more: &[String]) -> Result<Loaded, Failure> 
     Ok(loaded)
 }
 
-/// The same of a scene that is loaded.
+/// Examines a loaded scene.
 pub async fn judge(mut scene: Scene) -> Result<Loaded, Failure> {
     let setup = scene.setup();
     let Judged { verdict, start, lines, remarks } = Judged::of(&setup, scene.steps).await?;

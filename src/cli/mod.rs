@@ -1,13 +1,13 @@
-//! The command line: arguments in, exit code out.
+//! The command line: parses arguments, runs a command, returns an exit code.
 
-/// A line on standard output. A failure is no reason to stop: the program says so in the end.
+/// Prints a line on standard output. A failure to print is reported at the end of the program.
 macro_rules! out {
     ($($text:tt)*) => {{
         use std::io::Write as _;
         crate::cli::stdout::printed(&writeln!(std::io::stdout(), $($text)*));
     }};
 }
-/// A line on standard error.
+/// Prints a line on standard error.
 macro_rules! note {
     ($($text:tt)*) => {{
         use std::io::Write as _;
@@ -41,6 +41,7 @@ mod stdout;
 mod stop;
 mod summary;
 mod sweep;
+mod validate;
 mod words;
 
 use std::process::ExitCode;
@@ -50,7 +51,7 @@ use clap::Parser;
 use args::{Args, Command};
 use failure::Failure;
 
-/// Parses the arguments, does what they say, and turns what went wrong into words and an exit code.
+/// Parses the arguments, runs the command, and reports failures as a message and an exit code.
 pub fn main() -> ExitCode {
     let words = std::env::args_os().skip(1).take_while(|word| word != "--");
     let _ = failure::JSON.set(words.into_iter().any(|word| word == "--json"));
@@ -71,7 +72,7 @@ pub fn main() -> ExitCode {
     ended(pollster::block_on(dispatch(args.command)))
 }
 
-/// The exit code. Words that did not get to standard output are a failure, unless there is another.
+/// The exit code. Lost standard output is a failure, unless there is another one.
 fn ended(result: Result<(), Failure>) -> ExitCode {
     match result.and_then(|()| Ok(stdout::flush()?)) {
         Ok(()) => ExitCode::SUCCESS,
@@ -80,7 +81,7 @@ fn ended(result: Result<(), Failure>) -> ExitCode {
 }
 
 async fn dispatch(command: Command) -> Result<(), Failure> {
-    // Files are written and states are measured on several threads, too.
+    // Writing files and measuring states use threads, too.
     motes::cpu::threads()?;
     match command {
         Command::Run(args) => run::run(&args).await,
@@ -94,6 +95,7 @@ async fn dispatch(command: Command) -> Result<(), Failure> {
         Command::Stability(args) => stability::stability(&args).await,
         Command::Bench(args) => bench::bench(&args).await,
         Command::Sweep(args) => sweep::sweep(&args).await,
+        Command::Validate(args) => validate::validate(&args).await,
         Command::Doctor(args) => doctor::doctor(&args).await,
     }
 }

@@ -1,4 +1,4 @@
-//! How a run shows itself: a bar on a terminal, lines elsewhere, JSON for programs, or nothing.
+//! The progress of a run: a bar on a terminal, lines in a log, JSON for programs, or nothing.
 
 use std::io::IsTerminal;
 use std::path::Path;
@@ -13,15 +13,15 @@ use super::words::duration;
 
 /// The version of the JSON events.
 pub const SCHEMA: u32 = 1;
-/// Between two lines of a log, at least.
+/// The minimum time between two lines of a log.
 const PAUSE: Duration = Duration::from_secs(2);
 
-/// Where news of a run go.
+/// The form in which progress is reported.
 pub struct Progress {
     kind: Kind,
     start: Instant,
     last: Option<Instant>,
-    /// The steps at which it begins and ends.
+    /// The first and the last step of the run.
     begun: u64,
     steps: u64,
 }
@@ -34,7 +34,7 @@ enum Kind {
 }
 
 impl Progress {
-    /// By the arguments, and by whether it is a terminal.
+    /// Chosen by the arguments, and by whether standard error is a terminal.
     pub fn new(args: &ShowArgs, begun: u64, steps: u64) -> Self {
         let kind = match (args.json, args.quiet, std::io::stderr().is_terminal()) {
             (true, ..) => Kind::Json,
@@ -51,7 +51,7 @@ impl Progress {
         };
         Self { kind, start: Instant::now(), last: None, begun, steps }
     }
-    /// An event that programs may want, and people have in another form.
+    /// Prints an event as JSON, if requested.
     pub fn event(&self, name: &str, mut fields: Value) {
         if let (Kind::Json, Some(map)) = (&self.kind, fields.as_object_mut()) {
             map.insert("event".to_owned(), json!(name));
@@ -59,7 +59,7 @@ impl Progress {
             out!("{fields}");
         }
     }
-    /// A line for people.
+    /// Prints a line, unless JSON was requested or the run is quiet.
     pub fn say(&self, text: &str) {
         match &self.kind {
             Kind::Bar(bar) => bar.suspend(|| note!("{text}")),
@@ -67,14 +67,14 @@ impl Progress {
             Kind::Json | Kind::Quiet => {}
         }
     }
-    /// A line of the result.
+    /// Prints a line of the result.
     pub fn conclude(&self, text: &str) {
         match &self.kind {
             Kind::Bar(_) | Kind::Lines => out!("{text}"),
             Kind::Json | Kind::Quiet => {}
         }
     }
-    /// The run is over; how long it took.
+    /// Ends the report. Returns the duration of the run.
     pub fn finish(&self) -> Duration {
         if let Kind::Bar(bar) = &self.kind {
             bar.finish_and_clear();

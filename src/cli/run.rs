@@ -19,7 +19,7 @@ use super::progress::{Progress, SCHEMA};
 use super::{aftermath, conclude, course, solves, stop};
 use motes::diagnose::{advice, conserved};
 
-/// A checkpoint, the folder that it is in, and what is wrong with newer ones.
+/// A checkpoint, its folder, and the errors of newer checkpoints.
 type Kept = (Folder, Box<Checkpoint>, Vec<Error>);
 
 /// Runs a scene.
@@ -45,7 +45,7 @@ pub async fn run(args: &RunArgs) -> Result<(), Failure> {
                 remarks.push(begins_anew(folder, &loaded)?);
                 options.overwrite = true;
             }
-            // What another run has left is refused as ever.
+            // Results of another run are refused, as without --resume.
             Found::Begun | Found::Complete(_) | Found::Nothing => {}
         }
     }
@@ -53,7 +53,7 @@ pub async fn run(args: &RunArgs) -> Result<(), Failure> {
     start(loaded, options, (kept, remarks), &args.scene.device, &args.show).await
 }
 
-/// What is said where a run that left no checkpoint starts over, and its results are removed: only where the next one may have one.
+/// The note on a run that starts over, because it ended before its first checkpoint; an error if the scene writes none.
 fn begins_anew(folder: Folder, loaded: &Loaded) -> Result<String, Error> {
     let folder = folder.named(&loaded.scene.name);
     let count = folder.results()?.len();
@@ -69,7 +69,7 @@ fn begins_anew(folder: Folder, loaded: &Loaded) -> Result<String, Error> {
     Err(Error::Output { file: folder.path().to_owned(), message })
 }
 
-/// Goes on with a run.
+/// Resumes a run.
 pub async fn resume(args: &ResumeArgs) -> Result<(), Failure> {
     let refuse = |message: &str| Err(Error::Output { file: args.folder.clone(), message: message.to_owned() }.into());
     if !args.folder.is_dir() {
@@ -136,12 +136,12 @@ async fn start(
     };
     let mut progress = Progress::new(show, motes::run::begun(run.scene(), &setup.state), run.scene().steps);
     announce(&run, &mut progress, &remarks);
-    // Everything that can be refused is refused before the first file is written.
+    // All checks come before the first file is written.
     let driven = match &engine {
         Engine::Gpu(found) => {
             let mut simulation = Simulation::new(&found.device, &found.queue, &setup)?;
             let driven = drive(&mut run, &mut simulation, &mut progress).await;
-            // What the device said outside of our calls explains what came of it.
+            // Errors that the device reported outside of calls explain the failure.
             found.faults.check()?;
             driven
         }
@@ -159,14 +159,14 @@ async fn start(
         Err(error) => Err(explain(&run, error, &setup, verdict.as_ref())),
     };
     if let (Err(Failure::Error(Error::Timeout { .. })), Engine::Gpu(_)) = (&result, &engine) {
-        // Dropping a device that hangs would hang.
+        // To drop a device that does not respond would block.
         let code = result.err().map(Failure::report);
         std::process::exit(if code.is_some() { 7 } else { 0 });
     }
     result
 }
 
-/// What a run has said in its end.
+/// The results of a run that its final report uses.
 struct Driven {
     end: End,
     solves: Option<Solves>,
@@ -182,7 +182,7 @@ async fn drive<B: Backend>(
     Ok(Driven { end, solves: simulation.solves().await?, pressures: simulation.pressure_solves().await? })
 }
 
-/// Says what is going to run.
+/// Prints the scene, its number of particles and its device.
 fn announce(run: &Run, progress: &mut Progress, remarks: &[String]) {
     let (scene, count, Options { output, device, .. }) = (run.scene(), run.count(), run.options());
     progress.event(
@@ -195,7 +195,7 @@ fn announce(run: &Run, progress: &mut Progress, remarks: &[String]) {
     remarks.iter().for_each(|remark| progress.remark(remark));
 }
 
-/// What is to be said, and kept, when numbers are lost.
+/// Explains NaN or a runaway, and writes the last valid state.
 fn explain(run: &Run, error: Error, setup: &Setup, verdict: Option<&Verdict>) -> Failure {
     let (scene, Options { output, precision, .. }) = (run.scene(), run.options());
     let way = verdict.and_then(|verdict| motes::diagnose::way_out(verdict, setup));

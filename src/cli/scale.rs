@@ -7,12 +7,12 @@ use motes::settings::Key;
 use motes::shapes::{self, Resolution};
 use toml::{Table, Value};
 
-/// The values that multiply the number of particles of a scene by a factor, as `--set` takes them.
+/// The overrides, in the form of `--set`, that multiply the number of particles of a scene by a factor.
 ///
 /// # Errors
-/// [`Error::Scene`] where the scene has no other resolution: it names particles by their ids, its particles are ions or bodies of their own.
+/// [`Error::Scene`] if the scene has no other resolution: it names particles by their ids, or they are ions or single bodies.
 pub fn overrides(scene: &Scene, factor: f64) -> Result<Vec<String>, Error> {
-    // It was written with every value, and is read again without faults.
+    // The resolved scene has every value, and parses without errors.
     let root: Table = scene.resolved.parse().unwrap_or_default();
     refuse(&root)?;
     let narrower = factor.powf(if scene.bounds.dimensions == 2 { 1.0 / 2.0 } else { 1.0 / 3.0 });
@@ -44,7 +44,7 @@ pub fn overrides(scene: &Scene, factor: f64) -> Result<Vec<String>, Error> {
     Ok(all)
 }
 
-/// Refuses scenes that another number of particles would make something else of.
+/// Refuses scenes that depend on their number of particles.
 fn refuse(root: &Table) -> Result<(), Error> {
     let refused = |what: &str| {
         Err(Error::Scene(format!(
@@ -69,7 +69,7 @@ fn tables<'a>(root: &'a Table, section: &str) -> impl Iterator<Item = &'a Table>
     root.get(section).and_then(Value::as_array).into_iter().flatten().filter_map(Value::as_table)
 }
 
-/// A factor of the spacing of a fluid near to `narrower` by which its blocks and tanks, which are whole numbers of spacings, stay so.
+/// A factor of the spacing of a fluid close to `narrower`, such that blocks and tanks remain whole numbers of spacings.
 fn fitting(root: &Table, narrower: f64) -> f64 {
     let mut common = 0_u64;
     for table in tables(root, "particles") {
@@ -136,7 +136,7 @@ fn shaped(resolution: Resolution, table: &Table, [factor, narrower]: [f64; 2]) -
             (list.into_iter().flatten().filter_map(number).collect(), least, if periodic { 0.0 } else { 1.0 })
         }
     };
-    // Along axes of one particle there is nothing to divide.
+    // Axes with one particle are not divided.
     let axes = counts.iter().filter(|count| **count > 1.0).count().max(1);
     let part = factor.powf(1.0 / axes as f64);
     let scaled: Vec<f64> = counts
@@ -158,7 +158,7 @@ fn shaped(resolution: Resolution, table: &Table, [factor, narrower]: [f64; 2]) -
     values
 }
 
-/// A count of at least so many.
+/// A scaled count with a minimum.
 fn whole(count: f64, least: u32) -> String {
     format!("{}", count.round().max(f64::from(least)))
 }

@@ -42,7 +42,7 @@ pub fn scenes(args: &ScenesArgs) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Every key that a scene may give, or those of one thing.
+/// Prints all keys of scenes, or those of one force, shape, measure or section.
 fn keys(wanted: Option<&str>, as_json: bool) -> Result<(), Failure> {
     let forces = motes::forces::entries().map(|e| ("[[force]] kind", e.name, e.about, e.keys));
     let shapes = motes::shapes::SHAPES.iter().map(|e| ("[[particles]] shape", e.name, e.about, e.keys));

@@ -5,7 +5,7 @@ use serde_json::json;
 
 use super::progress::Progress;
 
-/// Tells what became of the solves, and the way out where some did not converge.
+/// Reports the solves, and a remedy if some did not converge.
 pub fn tell(progress: &Progress, solves: Option<Solves>, pressures: Option<[PressureSolves; 2]>) {
     tell_pressures(progress, pressures);
     let Some(Solves { solves: all, failures, first_failure, most_iterations, iterations, outcome, residual }) = solves
@@ -29,7 +29,7 @@ pub fn tell(progress: &Progress, solves: Option<Solves>, pressures: Option<[Pres
     }
 }
 
-/// Tells what became of the solves for pressure, and the way out where some did not converge.
+/// Reports the pressure solves, and a remedy if some did not converge.
 fn tell_pressures(progress: &Progress, solves: Option<[PressureSolves; 2]>) {
     for (what, one) in ["divergence", "density"].into_iter().zip(solves.into_iter().flatten()) {
         let PressureSolves { solves, failures, first_failure, most_iterations, iterations, all_iterations, error } =

@@ -1,4 +1,4 @@
-//! Standard output, and whether everything that was printed got there.
+//! Standard output, and the first error of printing.
 
 use std::io::{self, Write};
 use std::path::PathBuf;
@@ -6,10 +6,10 @@ use std::sync::OnceLock;
 
 use motes::Error;
 
-/// The first failure that loses words.
+/// The first error of printing.
 static FAILURE: OnceLock<String> = OnceLock::new();
 
-/// Takes note of what came of printing. A reader that has closed the pipe has what it wants.
+/// Records an error of printing. A closed pipe is none: its reader has read enough.
 pub fn printed(result: &io::Result<()>) {
     if let Err(why) = result
         && why.kind() != io::ErrorKind::BrokenPipe
@@ -18,10 +18,10 @@ pub fn printed(result: &io::Result<()>) {
     }
 }
 
-/// Sends what is still held back.
+/// Flushes standard output.
 ///
 /// # Errors
-/// [`Error::Output`] where some of what was printed is lost.
+/// [`Error::Output`] if some of the output is lost.
 pub fn flush() -> Result<(), Error> {
     printed(&io::stdout().flush());
     match FAILURE.get() {

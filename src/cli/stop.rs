@@ -6,7 +6,7 @@ use motes::run::Stop;
 
 use super::args::StopArgs;
 
-/// What ends a run early: from now on signals, and the limit of time, if there is one. Where signals cannot be had, they end the
+/// A stop by signals from now on, and by the time limit, if there is one. Where signals cannot be handled, they end the
 /// program as usual.
 pub fn listen(args: &StopArgs) -> Stop {
     let longest = args.max_hours.and_then(|hours| Duration::try_from_secs_f64(3600.0 * hours).ok());
@@ -22,12 +22,12 @@ pub fn listen(args: &StopArgs) -> Stop {
     if ignored {
         signals::ignore(signals::HANGUP);
     }
-    // A file that may not grow is an error of the call that writes it, which says so.
+    // With the signal ignored, a file at its size limit is an error of the write call.
     signals::ignore(signals::TOO_LARGE);
     stop
 }
 
-/// What is asked of the system.
+/// The signals of the system.
 #[cfg(unix)]
 mod signals {
     use nix::sys::signal::{SigHandler, Signal, signal};
@@ -56,7 +56,7 @@ mod signals {
     }
 }
 
-/// Elsewhere there are no such signals.
+/// Other systems have no such signals.
 #[cfg(not(unix))]
 mod signals {
     pub const HANGUP: () = ();

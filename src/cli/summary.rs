@@ -9,7 +9,7 @@ use super::course;
 use super::words::{duration, large};
 use motes::diagnose::Conserved;
 
-/// How the energy went, at the end and at most in all measurements. Where the total is next to nothing, as of a pendulum that starts at its pivot's height, changes are
+/// The change of the energy, final and largest. If the initial total is nearly 0, as of a pendulum at its pivot's height, changes are
 /// relative to the maximum kinetic energy.
 pub fn energy(rows: &[Energy], looks: &Looks, conserved: &Conserved) -> String {
     let (first, last) = (rows.first().copied().unwrap_or_default(), rows.last().copied().unwrap_or_default());
@@ -30,7 +30,7 @@ pub fn energy(rows: &[Energy], looks: &Looks, conserved: &Conserved) -> String {
     format!("{ends}, {word} {:+.1e}, at most {most:.1e} in {} measurements", last.drift_from(&first), looks.count)
 }
 
-/// How the momenta went, where they are kept.
+/// The change of the momenta that are conserved.
 pub fn momentum(rows: &[Energy], conserved: &Conserved) -> Option<String> {
     let (first, last) = (rows.first()?, rows.last()?);
     let (p, l) = (last.momentum - first.momentum, last.angular_momentum - first.angular_momentum);
@@ -39,7 +39,7 @@ pub fn momentum(rows: &[Energy], conserved: &Conserved) -> Option<String> {
     conserved.momentum.then(|| format!("momentum changed by {:.1e}{turning}", p.length()))
 }
 
-/// How fast it was.
+/// The speed of a run.
 pub fn speed(steps: u64, count: usize, stepping: Duration, took: Duration) -> String {
     let rate = steps as f64 / stepping.as_secs_f64().max(1e-9);
     format!(
@@ -52,7 +52,7 @@ pub fn speed(steps: u64, count: usize, stepping: Duration, took: Duration) -> St
     )
 }
 
-/// How many springs broke.
+/// The number of broken springs.
 pub fn broken(whole: usize, left: usize) -> String {
     format!(
         "{} of {whole} springs are broken; the remaining ones are in the files of links",

@@ -1,8 +1,8 @@
-//! Times and large numbers, for people.
+//! Times and large numbers as text.
 
 use std::time::Duration;
 
-/// A time, for people.
+/// A duration with a suitable unit.
 pub fn duration(time: Duration) -> String {
     let seconds = time.as_secs_f64();
     match seconds {
@@ -15,7 +15,7 @@ pub fn duration(time: Duration) -> String {
     }
 }
 
-/// A large number, for people.
+/// A large number with a suitable unit.
 pub fn large(x: f64) -> String {
     match x {
         x if x >= 1e12 => format!("{:.2} T", x / 1e12),

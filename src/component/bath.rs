@@ -53,6 +53,7 @@ impl Bath {
             problem.naming(),
             problem.active(),
             holding,
+            crate::shader!("thermostat/bath.wgsl"),
             file,
         ])?;
         let [low, high] = self.seed.map(f64::from);

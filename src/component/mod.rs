@@ -6,6 +6,7 @@ pub(crate) mod kind;
 mod misnamed;
 mod register;
 mod registered;
+pub(crate) mod thermostat;
 
 pub(crate) use misnamed::misnamed;
 pub(crate) use register::components;
@@ -196,6 +197,8 @@ pub struct Properties {
     pub dissipates_at_walls: Vec<&'static str>,
     /// Whether it is a thermostat of all particles: a simulation has one at most.
     pub thermostat: bool,
+    /// Whether it needs the forces of the positions at which a step begins: `ends_with_forces` of the integrator.
+    pub needs_forces: bool,
     /// Whether it changes the angular momentum.
     pub turns: bool,
     /// Whether it makes all particles that are not fixed a fluid.

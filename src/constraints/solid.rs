@@ -175,9 +175,9 @@ fn kernel(wall: Wall, problem: &Problem, factor: f64) -> Result<Kernel, Error> {
         constants.push(("REACHED", problem.reached));
         constants.extend(problem.clock_constants());
         sizes.extend(problem.clock_sizes());
-        let table = crate::motion::tables(&problem.motions, problem.dt);
-        sizes.extend([("motions".into(), table.sizes[0]), ("keyframes".into(), table.sizes[1])]);
-        tables.extend([("motions".into(), table.motions), ("keyframes".into(), table.keys)]);
+        let (motions, of_motions) = problem.motion_tables();
+        tables.extend(motions);
+        sizes.extend(of_motions);
     }
     let all = problem.clone();
     let reference = move |host: &Host| {

@@ -119,9 +119,8 @@ pub fn conserved(setup: &Setup) -> Result<Conserved, Error> {
             continue;
         }
         // What depends on velocity takes energy, and what keeps history of pairs is no function of positions.
-        let remembers = matches!(law.over, Over::List { slots: 1.., .. });
         conserved.energy &= match &law.reference {
-            Some(reference) if !remembers && !law.depends_on_velocity(&problem)? => {
+            Some(reference) if !law.remembers() && !law.depends_on_velocity(&problem)? => {
                 keeps_energy(reference, &setup.bounds)?
             }
             _ => false,
@@ -157,9 +156,10 @@ fn inside(setup: &Setup) -> Result<Option<Remark>, Error> {
     let Some((first, depth)) = moved.first() else { return Ok(None) };
     let deepest = moved.iter().map(|(_, depth)| *depth).fold(0.0, f64::max);
     let text = format!(
-        "{} particles start inside of an obstacle, or closer to it than its thickness, the first is particle {first}, by {depth:.3e}, and \
-         by {deepest:.3e} at most: the initial projection moves them out, without regard to other particles",
-        moved.len()
+        "{} of {} particles start inside of an obstacle, or closer to it than its thickness, the first is particle {first}, by {depth:.3e}, \
+         and by {deepest:.3e} at most: the initial projection moves them out, without regard to other particles",
+        moved.len(),
+        setup.state.len()
     );
     let remark = Remark::note("inside-solid", text).with("particles", moved.len() as f64);
     Ok(Some(remark.with("particle", *first as f64).with("largest_depth", deepest)))
@@ -186,8 +186,7 @@ pub fn advice(setup: &Setup, end: Option<f64>) -> Result<Vec<Remark>, Error> {
     let (order, reduced) = (setup.integrator.order(), setup.integrator.order_with_velocity());
     let loses = reduced < order || implicit && order > 1;
     // What keeps history is evaluated once in a step.
-    let keeps = |law: &Law| matches!(law.over, Over::List { slots, .. } if slots > 0);
-    let keeps_history = laws.iter().any(keeps) || setup.forces.iter().any(|force| force.properties().history);
+    let keeps_history = laws.iter().any(Law::remembers) || setup.forces.iter().any(|force| force.properties().history);
     let depends = |name: &str| {
         let with_it = if implicit { 1 } else { reduced };
         let text = format!(

@@ -69,7 +69,7 @@ fn mouths(setup: &Setup, medium: &Medium) -> Option<Remark> {
     let other = others.iter().min_by(nearest)?;
     let distance = setup.bounds.shortest(place(*other) - place(*site)).length();
     let text = format!(
-        "emitter {} spawns particles where others are: particle {other} is {distance:.3e} from a point of its nozzle, and the spacing \
+        "emitter {} spawns particles where other particles are: particle {other} is {distance:.3e} from a point of its nozzle, and the spacing \
          is {}",
         emitter + 1,
         medium.spacing
@@ -107,11 +107,11 @@ fn weighed(setup: &Setup, Weight { pull: weight, largest }: Weight) -> Result<Op
 fn outside(setup: &Setup) -> Option<Remark> {
     let (particles, bounds) = (&setup.state, &setup.bounds);
     let extent: Vec<usize> = (0..3).filter(|axis| bounds.high[*axis] > bounds.low[*axis]).collect();
-    let held: std::collections::BTreeSet<usize> = particles.held.iter().map(|one| one.id as usize).collect();
+    let fixed = particles.fixed();
     let out = |id: &usize| {
         let x = particles.position()[*id];
         let beyond = |axis: &usize| x[*axis] < bounds.low[*axis] || x[*axis] > bounds.high[*axis];
-        particles.is_active(*id) && !held.contains(id) && extent.iter().any(beyond)
+        particles.is_active(*id) && !fixed[*id] && extent.iter().any(beyond)
     };
     let mut all = (0..particles.len()).filter(out);
     let first = all.next()?;

@@ -40,7 +40,7 @@ pub fn remarks(setup: &Setup, machine: Machine) -> Result<Vec<Remark>, Error> {
     let walks = setup.forces.iter().flat_map(|force| force.laws()).any(|law| law.tree(&problem).is_some());
     if let Some(ratio) = Some(spread(setup.state.position())).filter(|ratio| walks && *ratio > FAR) {
         let text = format!(
-            "a particle is {ratio:.0e} times as far out as the extent of 98 % of all particles: the tree cannot resolve the others, and takes as long \
+            "one particle is {ratio:.0e} times as far from the centre as 98 % of all particles: the tree cannot resolve the others, and takes as long \
              as direct summation"
         );
         let stray = Remark::note("stray-particle", text).with("ratio", ratio);

@@ -52,10 +52,13 @@ pub fn warning(flow: &Flow, setup: &Setup) -> Result<Option<Remark>, Error> {
         Asks::Xsph => {
             let text = format!(
                 "the fluid's xsph is {:.2} times the stability limit of {name}, at any dt: it overcorrects \
-                 velocities; 0.5 is already large",
+                 velocities",
                 flow.excess
             );
-            return said(flow, Remark::warning("strong-xsph", text).with("excess", flow.excess));
+            return said(
+                flow,
+                Remark::warning("strong-xsph", text).with("excess", flow.excess).advice("choose 0.5 or less"),
+            );
         }
     };
     let way = if flow.safe > 0.0 {

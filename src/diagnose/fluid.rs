@@ -117,11 +117,16 @@ pub fn remarks(setup: &Setup, start: &Start) -> Result<(Vec<String>, Vec<Remark>
     let burst = start.burst();
     if !solved && burst > MACH * medium.sound {
         let text = format!(
-            "the maximum density of the fluid, at particle {dense}, is {densest:.3} times that at rest: it expands at {burst:.3e}, \
+            "the maximum density of the fluid, at particle {dense}, is {densest:.3} times that at rest: it expands at the speed {burst:.3}, \
              faster than the flow for which the speed of sound is chosen"
         );
         let start = Remark::note("dense-start", text).with("particle", f64::from(dense));
-        notes.push(start.with("relative_density", densest).with("speed", burst));
+        let start = start.with("relative_density", densest).with("speed", burst);
+        notes.push(start.advice(format!(
+            "give particles the mass density × spacing^{} = {:.4e}, move them apart, or choose a larger sound_speed",
+            medium.dimensions,
+            medium.mass()
+        )));
     }
     if densest < 0.97 {
         let text = format!(

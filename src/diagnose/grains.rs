@@ -50,14 +50,9 @@ pub fn remarks(setup: &Setup) -> Vec<Remark> {
 /// Fixed grains that impacts take for light ones.
 fn light_walls(setup: &Setup) -> Option<Remark> {
     let mass = setup.state.mass();
-    let is_held = |i: usize| setup.state.held.iter().any(|held| held.id as usize == i);
-    let free = (0..mass.len()).filter(|i| !is_held(*i)).map(|i| mass[i]).fold(0.0, f64::max);
-    let light = setup
-        .state
-        .held
-        .iter()
-        .map(|held| held.id as usize)
-        .find(|i| mass.get(*i).is_some_and(|mass| *mass > 0.0 && *mass < HEAVY * free))?;
+    let fixed = setup.state.fixed();
+    let free = (0..mass.len()).filter(|i| !fixed[*i]).map(|i| mass[i]).fold(0.0, f64::max);
+    let light = (0..mass.len()).find(|i| fixed[*i] && mass[*i] > 0.0 && mass[*i] < HEAVY * free)?;
     let text = format!(
         "particle {light} is fixed and has a mass of {}, which impacts count: they lose less than `restitution` says",
         digits(mass[light])

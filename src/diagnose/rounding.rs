@@ -1,7 +1,8 @@
 //! Rounding in single precision: motions and softenings below its last place.
 
 use super::Remark;
-use crate::kernel::Scalar;
+use crate::integrators::Precise;
+use crate::kernel::{Machine, Precision, Scalar};
 use crate::simulation::Setup;
 
 /// Slower particles count as being at rest \[parts of the mean speed\].
@@ -16,22 +17,26 @@ fn last_place(x: f64) -> f64 {
     f64::from(f32::from_bits(single.to_bits() + 1)) - f64::from(single)
 }
 
-/// Remarks on a setup for a device that computes in single precision.
+/// Remarks on a setup for a device that computes in single precision. Two words hold 24 bits more of a position.
 pub fn remarks(setup: &Setup) -> Vec<Remark> {
-    motions(setup).into_iter().chain(softenings(setup)).collect()
+    let precision = setup.integrator.precision();
+    let motions = if precision.is_double() { None } else { motions(setup) };
+    motions.into_iter().chain(softenings(setup)).collect()
+}
+
+/// The way out by another precision, where the setup can run in it.
+fn in_two_words(setup: &Setup) -> &'static str {
+    let integrator = Precise { integrator: setup.integrator.clone(), precision: Precision::Compensated };
+    let two = Setup { integrator: Box::new(integrator), ..setup.clone() };
+    if two.plans(Machine::HOST).is_ok() { "set precision = \"compensated\" in [simulation], " } else { "" }
 }
 
 /// Particles that move by less than the last place of their coordinates in a step.
 fn motions(setup: &Setup) -> Option<Remark> {
     let particles = &setup.state;
-    let mut moves = vec![true; particles.len()];
-    for held in &particles.held {
-        if let Some(moves) = moves.get_mut(held.id as usize) {
-            *moves = false;
-        }
-    }
+    let fixed = particles.fixed();
     let speed = |id: usize| particles.velocity()[id].length();
-    let moving = || (0..particles.len()).filter(|id| moves[*id] && speed(*id) > 0.0);
+    let moving = || (0..particles.len()).filter(|id| !fixed[*id] && speed(*id) > 0.0);
     let count = moving().count();
     let mean = moving().map(speed).sum::<f64>() / count.max(1) as f64;
     // A particle lingers at a turning point; all of a scene do not.
@@ -60,7 +65,10 @@ fn motions(setup: &Setup) -> Option<Remark> {
             .with("moved", v * setup.dt)
             .with("last_place", place)
             .with("better_dt", better)
-            .advice(format!("move the origin closer, choose a larger dt (above {better:.1e}), or use --backend cpu")),
+            .advice(format!(
+                "{}move the origin closer, choose a larger dt (above {better:.1e}), or use --backend cpu",
+                in_two_words(setup)
+            )),
     )
 }
 
@@ -75,7 +83,7 @@ fn softenings(setup: &Setup) -> Vec<Remark> {
         })?;
         (place > COARSE * softening).then(|| {
             let text = format!(
-                "the softening {softening} of `{}` is {:.1} times the last place of single precision at the largest coordinate, {far:.4e}: \
+                "the softening {softening} of `{}` is {:.1e} times the last place of single precision at the largest coordinate, {far:.4e}: \
                  forces of close pairs are off by up to {:.0} %",
                 law.name,
                 softening / place,
@@ -102,8 +110,9 @@ pub fn crossings(setup: &Setup) -> Option<Remark> {
     let (first, times) = all().next()?;
     let count = all().count();
     let text = format!(
-        "{count} particles cross the periodic box in a step, the first is particle {first}, {times:.1} times: they do not interact \
-         with particles on their way, and beyond some 10^7 times their positions are rounding errors only"
+        "{count} of {} particles cross the periodic box in a step, the first is particle {first}, {times:.1} times: they do not interact \
+         with particles on their way, and beyond some 10^7 times their positions are rounding errors only",
+        setup.state.len()
     );
     Some(
         Remark::note("crossed-box", text)

@@ -87,7 +87,8 @@ impl<R: Read + Seek> Arrays<R> {
 
 /// The numbers of one array, widened.
 fn array<R: Read + Seek>(archive: &mut NpzArchive<R>, name: &str) -> Result<Vec<f64>, String> {
-    let mut file = archive.zip_archive().by_name(&format!("{name}.npy")).map_err(|error| error.to_string())?;
+    let mut file =
+        archive.zip_archive().by_name(&format!("{name}.npy")).map_err(|error| format!("cannot be read ({error})"))?;
     if !matches!(file.compression(), CompressionMethod::Stored | CompressionMethod::Deflated) {
         return Err(format!("is compressed with {}; only stored and deflated arrays are read", file.compression()));
     }

@@ -147,7 +147,7 @@ impl Header {
                 }
             };
             if slot.replace(place).is_some() {
-                problems.note(|| format!("the column `{title}` is there twice"));
+                problems.note(|| format!("the column `{title}` is there twice: remove one of them"));
             }
         }
         for (title, place) in titles.iter().zip(&found.places) {

@@ -113,7 +113,9 @@ pub fn read(path: &Path, positions: &[DVec3], bounds: &Bounds, usual: &Usual) ->
         faults.filter_map(Result::err).for_each(|fault| problems.note(|| fault.to_string()));
         links.append(&one, 0);
         if let Some(before) = known.insert((a.min(b), a.max(b), tie == Tie::Rod), line) {
-            problems.note(|| format!("{line}: particles {a} and {b} are linked again; they are already at {before}"));
+            problems.note(|| {
+                format!("{line}: particles {a} and {b} are linked again, after {before}: remove one of the two")
+            });
         }
     }
     problems.check(path)?;
@@ -126,7 +128,7 @@ fn columns(header: &ByteRecord, problems: &mut Problems) -> [Option<usize>; 6] {
         let title = text(header, place);
         match COLUMNS.iter().position(|known| *known == title) {
             Some(column) if places[column].is_none() => places[column] = Some(place),
-            Some(_) => problems.note(|| format!("the column `{title}` is there twice")),
+            Some(_) => problems.note(|| format!("the column `{title}` is there twice: remove one of them")),
             None => problems.note(|| format!("unknown column `{title}`; known are {}", COLUMNS.join(", "))),
         }
     }

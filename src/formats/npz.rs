@@ -83,7 +83,9 @@ pub fn read(path: &Path, columns: &Columns) -> Result<State, Error> {
     for (column, values) in own {
         let width = column.kind.components();
         let given: Vec<_> = (0..width).map(|k| Some(values.iter().skip(k).step_by(width).copied().collect())).collect();
-        state.put(column, Some(titles::array(column, &given, values.len() / width)));
+        // Its elements are read as the rows of a column with one for each particle.
+        let rows = Column { shape: Shape::Particle, ..column.clone() };
+        state.put(column, Some(titles::array(&rows, &given, values.len() / width)));
     }
     (state.time, state.step) = (time, whole(step));
     // In another order they are not of these particles.

@@ -127,7 +127,7 @@ fn sheet(path: &Path, wanted: &dyn Fn(&str) -> bool) -> Result<Sheet, Error> {
             None => problems.note(|| "line 1: vertices, step and time are announced, and cannot be read".to_owned()),
         }
         if !text.trim_end().ends_with(END) {
-            problems.note(|| format!("the file ends without `{END}`: it is cut"));
+            problems.note(|| format!("the file ends without `{END}`: it is truncated"));
         }
     } else if rows == 0 {
         problems.note(|| "has no vertices: lines such as `v 1 2 3`".to_owned());

@@ -175,7 +175,7 @@ fn sheet(path: &Path, wanted: &dyn Fn(&str) -> bool) -> Result<Sheet, Error> {
                     let number = |word: &&[u8]| {
                         let text = String::from_utf8_lossy(word);
                         text.parse().unwrap_or_else(|_| {
-                            wrong = Some(format!("`{}` is no number, in the list of {name}", shortened(&text)));
+                            wrong = Some(format!("`{}`, a value of the property `{name}`, is no number", shortened(&text)));
                             0.0
                         })
                     };
@@ -267,7 +267,7 @@ fn passed(bytes: &[u8], start: usize, element: &Element, body: Body) -> Result<u
             let lists = properties.iter().any(|property| property.length.is_some());
             let there = words(line).count();
             if !lists && there != properties.len() {
-                return Err(format!("byte {}: {there} words; `{name}` has {} properties", at - line.len(), properties.len()));
+                return Err(format!("byte {}: {there} values in a line; `{name}` has {} properties", at - line.len(), properties.len()));
             }
         }
         return Ok(at);

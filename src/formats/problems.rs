@@ -59,10 +59,12 @@ pub(super) fn order(ids: &[u64], place: impl Fn(usize) -> String, problems: &mut
         let id = ids[*row];
         match before {
             Some(other) if ids[other] == id => {
-                problems.note(|| format!("{}: id {id} again; it is already at {}", place(*row), place(other)));
+                problems.note(|| {
+                    format!("{}: the id {id} is there already, at {}: ids must differ", place(*row), place(other))
+                });
             }
             _ if id >= u64::from(u32::MAX) => {
-                problems.note(|| format!("{}: id {id}; {}", place(*row), titles::LARGE_ID));
+                problems.note(|| format!("{}: the id {id} is too large: {}", place(*row), titles::LARGE_ID));
             }
             _ => {}
         }

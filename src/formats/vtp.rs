@@ -404,7 +404,10 @@ fn data<'a>(bytes: &'a [u8], tag: &Tag<'_>, kind: Type, layout: Layout, numbers:
     // The bytes after their count.
     let counts = |bytes: &[u8]| {
         let count = bytes.get(..counted).map(|bytes| layout.counts.number(bytes, big)).ok_or_else(|| wrong(0.0))?;
-        if count.to_bits() == (needed as f64).to_bits() { Ok(()) } else { Err(wrong(count)) }
+        if count.to_bits() == (needed as f64).to_bits() {
+            return Ok(());
+        }
+        Err(format!("byte {at}: `{}` needs {needed} bytes, and its count announces {count}", shortened(name)))
     };
     let text = !matches!(tag.get("format"), Some("appended" | "binary"));
     let coding = |encoded| Coding { counts: layout.counts, big, encoded };

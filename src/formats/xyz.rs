@@ -186,13 +186,13 @@ pub fn read(path: &Path, columns: &Columns) -> Result<State, Error> {
     for (property, place) in properties.iter().zip(&places) {
         for k in 0..if place.is_some() { property.width } else { 0 } {
             let list = &mut given[place.unwrap_or(0) + k];
-            if list.replace(Vec::new()).is_some() {
-                problems.note(|| format!("line 2: `{}` is there twice", property.name));
+            if list.replace(Vec::new()).is_some() && k == 0 {
+                problems.note(|| format!("line 2: `{}` is there twice: remove one of them", property.name));
             }
         }
     }
     if properties.iter().filter(|property| property.name == "id").count() > 1 {
-        problems.note(|| "line 2: `id` is there twice".to_owned());
+        problems.note(|| "line 2: `id` is there twice: remove one of them".to_owned());
     }
     if !known.iter().zip(&given).any(|(title, list)| title.column.name == "position" && list.is_some()) {
         problems.note(|| "line 2: Properties has no `pos:R:3`: positions are missing".to_owned());

@@ -1,6 +1,5 @@
 //! Pipelines, made once for each shader and set of constants. Layouts come from reflection.
 
-use std::borrow::Cow;
 use std::collections::{BTreeMap, HashMap};
 use std::time::Duration;
 
@@ -127,7 +126,7 @@ fn module(device: &wgpu::Device, shader: &Shader) -> wgpu::ShaderModule {
 /// The module that is parsed already; a browser takes text.
 #[cfg(not(target_arch = "wasm32"))]
 fn source(shader: &Shader) -> wgpu::ShaderSource<'_> {
-    wgpu::ShaderSource::Naga(Cow::Owned(shader.module().clone()))
+    wgpu::ShaderSource::Naga(std::borrow::Cow::Owned(shader.module().clone()))
 }
 
 #[cfg(target_arch = "wasm32")]

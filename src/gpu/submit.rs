@@ -111,7 +111,7 @@ impl Queue {
             return Ok(());
         };
         if !oldest.done.within(&self.device, self.patience)? && cfg!(not(target_arch = "wasm32")) {
-            return Err(self.timeout("a batch of steps"));
+            return Err(self.timeout("a batch of steps; choose another adapter, or fewer particles"));
         }
         self.landed();
         Ok(())
@@ -150,7 +150,9 @@ impl Queue {
             while let Some(next) = self.flying.front() {
                 if !next.done.within(&self.device, LOOK)? {
                     if Instant::now() > deadline {
-                        return Poll::Ready(Err(self.timeout("a batch of steps")));
+                        return Poll::Ready(Err(
+                            self.timeout("a batch of steps; choose another adapter, or fewer particles")
+                        ));
                     }
                     context.waker().wake_by_ref();
                     return Poll::Pending;

@@ -7,7 +7,7 @@
 //!   limits of friction, rolling and torsion are those of the normal force where it pushes, and 0 where it pulls;
 //! * the tangential spring ξ is projected onto the tangent plane and keeps its length there otherwise. It is not reduced when the
 //!   normal force decreases: its stiffness is the present one, so that its force decreases with the overlap;
-//! * at Coulomb's limit ξ is set so that spring and damper together give the limit; at that of rolling ψ is, by the spring alone;
+//! * at Coulomb's limit ξ is set so that spring and damper together give the limit, and at those of rolling and torsion ψ is;
 //! * history begins with zeros when a contact begins.
 
 mod material;

@@ -64,9 +64,9 @@ fn pose(position: DVec3, number: u32, motion: &Motion, name: String, problem: &P
     let params = params.map_or(Ok(Vec::new()), |binding| binding.packed.pack("a wall", &values))?;
     let mut constants = vec![("REACHED", problem.reached)];
     constants.extend(problem.clock_constants());
-    let table = crate::motion::tables(&problem.motions, problem.dt);
+    let (tables, of_tables) = problem.motion_tables();
     let mut sizes = problem.clock_sizes();
-    sizes.extend([("motions".into(), table.sizes[0]), ("keyframes".into(), table.sizes[1])]);
+    sizes.extend(of_tables);
     sizes.push((name.clone().into(), FRAME));
     let (motion, all, field) = (motion.clone(), problem.clone(), name.clone());
     let reference = move |host: &Host| {
@@ -85,7 +85,7 @@ fn pose(position: DVec3, number: u32, motion: &Motion, name: String, problem: &P
         reference: Some(Arc::new(reference)),
         sizes,
         scratch: Vec::new(),
-        tables: vec![("motions".into(), table.motions), ("keyframes".into(), table.keys)],
+        tables,
     })
 }
 

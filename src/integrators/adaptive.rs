@@ -2,7 +2,7 @@
 //! stay bounded, may drift (Skeel & Gear 1992).
 
 use super::{Integrator, Step};
-use crate::kernel::{AdaptiveStep, Column};
+use crate::kernel::{AdaptiveStep, Column, Precision};
 
 /// Another integrator, with steps as long as forces allow.
 #[derive(Clone)]
@@ -34,6 +34,9 @@ impl Integrator for Adaptive {
     }
     fn in_fixed_steps(&self) -> Box<dyn Integrator> {
         self.integrator.in_fixed_steps()
+    }
+    fn precision(&self) -> Precision {
+        self.integrator.precision()
     }
     fn columns(&self) -> Vec<Column> {
         self.integrator.columns()

@@ -22,6 +22,9 @@ impl Integrator for Beeman {
     fn order(&self) -> u32 {
         2
     }
+    fn ends_with_forces(&self) -> bool {
+        true
+    }
     fn fixed_step(&self) -> Option<&'static str> {
         Some("beeman requires accelerations at three equally spaced times")
     }

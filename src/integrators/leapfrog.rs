@@ -14,6 +14,9 @@ impl Integrator for Leapfrog {
     fn order(&self) -> u32 {
         2
     }
+    fn ends_with_forces(&self) -> bool {
+        true
+    }
     fn is_symplectic(&self) -> bool {
         true
     }

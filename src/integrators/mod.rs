@@ -1,10 +1,13 @@
 //! Integrators. Each is written in verbs (kick, drift, evaluate) and reads like its formula in a textbook.
 
 mod adaptive;
+mod precision;
 mod step;
 mod verbs;
 
 pub use adaptive::Adaptive;
+pub use precision::Precise;
+pub(crate) use precision::check as check_precision;
 pub(crate) use step::kept_rates;
 #[doc(hidden)]
 pub use step::{Explicit, Form, Implicit, Step, implicit};
@@ -13,7 +16,7 @@ pub use verbs::solve::STATE as SOLVE_STATE;
 #[doc(hidden)]
 pub use verbs::solve::report::{NAME as SOLVE_REPORT, WORDS as SOLVE_REPORT_WORDS};
 
-use crate::kernel::{AdaptiveStep, Column};
+use crate::kernel::{AdaptiveStep, Column, Precision};
 use crate::settings::{Key, Settings};
 
 /// A method that advances particles by one step.
@@ -52,6 +55,14 @@ pub trait Integrator: Copied + Send + Sync {
     /// The same method with a fixed step.
     fn in_fixed_steps(&self) -> Box<dyn Integrator> {
         self.copied()
+    }
+    /// Whether forces at the end of a step are those of the positions there.
+    fn ends_with_forces(&self) -> bool {
+        false
+    }
+    /// The precision in which it keeps positions and velocities.
+    fn precision(&self) -> Precision {
+        Precision::Single
     }
     /// The columns that it needs in addition to those of all simulations: the data that a step passes to the next.
     fn columns(&self) -> Vec<Column> {

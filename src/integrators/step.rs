@@ -9,7 +9,7 @@ mod solve;
 pub use pairs::kept_rates;
 pub use solve::{Explicit, Form, Implicit, implicit};
 
-use super::verbs::{adaptive, at, clear, drift, held, kick, kick_drift, life, runge_kutta};
+use super::verbs::{adaptive, at, clear, compensated, drift, held, kick, kick_drift, life, runge_kutta};
 use crate::boundary;
 use crate::component::earlier;
 use crate::error::Error;
@@ -126,6 +126,12 @@ impl<'a> Step<'a> {
     pub fn open(&mut self) {
         self.each(Stage::StartOfStep);
     }
+    /// Adds the proof that sums are compensated, where positions and velocities rely on them.
+    pub fn prove(&mut self) {
+        if self.problem.precision.is_double() {
+            self.add(compensated::prove(compensated::sums()));
+        }
+    }
     /// Adds the kernels of forces before the first step.
     pub fn begin(&mut self) {
         self.each(Stage::Start);
@@ -160,10 +166,14 @@ impl<'a> Step<'a> {
     /// x ← x + c v dt
     fn go(&mut self, factor: f64) {
         let count = self.problem.capacity;
-        match self.kicked.take_if(|_| !self.apart) {
-            Some(kick) => self.add(kick_drift::kernel(count, kick, factor)),
-            None => self.add(drift::kernel(count, factor)),
-        }
+        let is_double = self.problem.precision.is_double();
+        let kernel = match self.kicked.take_if(|_| !self.apart) {
+            Some(kick) if is_double => compensated::kick_drift(&self.problem, kick, factor),
+            Some(kick) => kick_drift::kernel(count, kick, factor),
+            None if is_double => compensated::drift(&self.problem, factor),
+            None => drift::kernel(count, factor),
+        };
+        self.add(kernel);
     }
     /// Particles that left the box through a periodic or reflecting side are put back.
     pub fn enclose(&mut self) {
@@ -232,7 +242,12 @@ impl<'a> Step<'a> {
     /// A kick without a following drift is a dispatch of its own.
     fn flush(&mut self) {
         if let Some(factor) = self.kicked.take() {
-            self.add(kick::kernel(self.problem.capacity, factor));
+            let is_double = self.problem.precision.is_double();
+            self.add(if is_double {
+                compensated::kick(&self.problem, factor)
+            } else {
+                kick::kernel(self.problem.capacity, factor)
+            });
         }
     }
     fn append(&mut self, plan: Plan) {

@@ -119,8 +119,7 @@ impl Component for ContactWall {
             _ => {}
         }
         if matches!(shape, Solid::Cone { .. }) && axis.length() <= 0.0 {
-            let why = "the axis of a cone is 0: a plate with a hole has a short axis along its normal".to_owned();
-            return Err(Error::Setting { key: "axis", why });
+            return wrong("axis", "the axis of a cone is 0: a plate with a hole has a short axis along its normal");
         }
         Ok(())
     }

@@ -116,8 +116,8 @@ pub fn fits(problem: &Problem, softening: f64) -> Result<(), Error> {
             return Ok(());
         }
         return Err(Error::Scene(format!(
-            "gravity with images = \"ewald\" has a softening of {softening} in a cube of side {}: it may be {} at most, for what \
-             comes as waves is not softened",
+            "gravity with images = \"ewald\" has a softening of {softening} in a cube of side {}: it may be {} at most, because \
+             the sum over waves is not softened",
             period.x,
             WIDEST * period.x
         )));

@@ -7,7 +7,7 @@ use glam::{DVec3, DVec4};
 
 use crate::kernel::{Scalar, Source, World};
 use crate::settings::{Key, Kind, Pair, Settings, Value};
-use crate::visit::{Law, Over, PairRow, PairTable, Particle};
+use crate::visit::{Law, MOST_SPECIES, Over, PairRow, PairTable, Particle};
 
 /// The cut-off radius.
 pub(super) const RANGE: Key = Key::required("range", Kind::Positive, "the cut-off radius [length]");
@@ -156,9 +156,18 @@ pub(super) fn central(
     rows: &[Row],
     energy: impl Fn(&Row, f64) -> Energy + Send + Sync + 'static,
 ) -> Law {
-    let side = rows.iter().flat_map(|row| row.species).max().map_or(0, |last| last + 1);
-    let every = (0..side).flat_map(|a| (0..side).map(move |b| [a, b]));
-    let table: Arc<[Option<Row>]> = every.map(|pair| find(rows, pair).cloned()).collect();
+    // A table of more species is refused where it is packed.
+    let side = rows.iter().flat_map(|row| row.species).max().map_or(0, |last| last.saturating_add(1)).min(MOST_SPECIES);
+    let mut table: Vec<Option<Row>> = vec![None; (side * side) as usize];
+    // Of two rows for one pair the first counts.
+    for row in rows.iter().rev() {
+        let [a, b] = row.species;
+        if a.max(b) < side {
+            table[(a * side + b) as usize] = Some(row.clone());
+            table[(b * side + a) as usize] = Some(row.clone());
+        }
+    }
+    let table: Arc<[Option<Row>]> = table.into();
     let gather = move |me: &Particle, you: &Particle, r: DVec3, sum: &mut DVec4| {
         let [a, b] = [me.species(), you.species()];
         let row = if a.max(b) < side { table.get((a * side + b) as usize) } else { None };

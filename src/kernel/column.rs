@@ -168,6 +168,11 @@ impl Shape {
 }
 
 impl Column {
+    /// Its kind and its unit, as messages state them.
+    pub(crate) fn described(&self) -> String {
+        let kind = self.kind.name();
+        if self.unit.is_empty() { kind.to_owned() } else { format!("{kind} [{}]", self.unit) }
+    }
     /// A column of its own buffer, one value for each particle, kept as state, 0 where nothing is given.
     #[must_use]
     pub fn new(name: impl Into<Name>, kind: Kind, unit: &'static str, about: &'static str) -> Self {

@@ -4,7 +4,7 @@ use super::column::{Column, Kind, Role, Shape};
 use crate::error::Error;
 
 /// Buffers of the engine, whose names no column may have.
-const RESERVED: [&str; 4] = ["world", "alarm", "params", "grid"];
+const RESERVED: [&str; 6] = ["world", "alarm", "params", "grid", "position_low", "velocity_low"];
 
 /// Prefixes of the names of buffers that integrators keep beside columns.
 const KEPT: [&str; 4] = ["start_", "slope_", "rate_", "kept_"];
@@ -66,12 +66,10 @@ impl Columns {
                 return Ok(());
             }
             return Err(Error::Scene(format!(
-                "the column `{}` is declared twice, as {} [{}] and as {} [{}]: give one of them another name",
+                "the column `{}` is declared twice, as {} and as {}: give one of them another name",
                 column.name,
-                known.kind.name(),
-                known.unit,
-                column.kind.name(),
-                column.unit
+                known.described(),
+                column.described()
             )));
         }
         let mut letters = column.name.chars();

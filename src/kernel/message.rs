@@ -32,15 +32,28 @@ pub fn validation(sources: &[Source], error: &WithSpan<ValidationError>) -> Erro
         message.push_str(&inner.to_string());
         cause = inner.source();
     }
+    message = without_handles(&message);
     // The last span is the narrowest; a span in the user's own file is more useful than one in ours.
     let spans: Vec<_> = error.spans().collect();
     let theirs = spans.iter().rev().find(|(span, _)| {
         span.to_range().and_then(|r| place(sources, r.start)).is_some_and(|(source, _)| !source.ours)
     });
     if let Some((span, label)) = theirs.or(spans.last()) {
-        message = with_place(&message, sources, *span, label);
+        // naga's labels name numbers of its own tables.
+        message = with_place(&message, sources, *span, if label.starts_with("naga::") { "here" } else { label });
     }
     Error::Shader { message }
+}
+
+/// A message of naga without the numbers of its tables, such as `[4]` and `Some([1])`.
+fn without_handles(message: &str) -> String {
+    let is_handle = |word: &&str| {
+        let word = word.trim_end_matches([':', ',']);
+        let word = word.strip_prefix("Some(").and_then(|word| word.strip_suffix(')')).unwrap_or(word);
+        let number = word.strip_prefix('[').and_then(|word| word.strip_suffix(']'));
+        number.is_some_and(|number| number.bytes().all(|byte| byte.is_ascii_digit()))
+    };
+    message.split(' ').filter(|word| !is_handle(word)).collect::<Vec<_>>().join(" ")
 }
 
 /// The file and the position in it that correspond to a position in the joined text.

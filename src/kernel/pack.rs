@@ -86,7 +86,7 @@ impl Packed {
                 (Scalar::Vector4(v), true, 4) => v.map(bytes).to_vec(),
                 _ => {
                     return Err(Error::Scene(format!(
-                        "{owner}: the parameter `{}` is {} in the shader, and the value does not fit it",
+                        "the parameter `{}` of {owner} is {} in the shader, and its value is of another kind",
                         member.name,
                         member.describe()
                     )));

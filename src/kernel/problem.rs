@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use glam::DVec3;
 
-use super::{AdaptiveStep, Bounds, Columns, ListShape, Machine, Shader, Side, Solver, Source, Table};
+use super::{AdaptiveStep, Bounds, Columns, ListShape, Machine, Name, Precision, Shader, Side, Solver, Source, Table};
 use crate::life::{Birth, Drain};
 use crate::links::{Links, Network};
 use crate::motion::{self, Held, Motion};
@@ -51,6 +51,8 @@ pub struct Problem {
     pub solver: Solver,
     /// The adaptive time step; `None`: all steps have the same length.
     pub adaptive_step: Option<AdaptiveStep>,
+    /// The precision of positions and velocities.
+    pub precision: Precision,
     /// The columns of the simulation.
     pub columns: Arc<Columns>,
     /// The neighbour list that laws share, if any law is over one.
@@ -101,6 +103,7 @@ impl Problem {
             reached: 1.0,
             solver: Solver::default(),
             adaptive_step: None,
+            precision: Precision::Single,
             columns: Arc::default(),
             list: None,
             neighbors: Vec::new(),
@@ -110,6 +113,11 @@ impl Problem {
     #[must_use]
     pub fn neighbors_within(&self, range: f64) -> Option<f64> {
         self.neighbors.iter().find(|known| known.range.to_bits() == range.to_bits()).map(|known| known.mean)
+    }
+    /// The same with positions and velocities of this precision.
+    #[must_use]
+    pub fn precise(self, precision: Precision) -> Self {
+        Self { precision, ..self }
     }
     /// The same with this neighbour list.
     #[must_use]
@@ -141,6 +149,14 @@ impl Problem {
         let mask = if held.is_empty() { Vec::new() } else { motion::mask(self.capacity, held) };
         let (held, network) = (Arc::new(motion::sorted(held)), Arc::new(Network::new(self.capacity, links)));
         Self { network, held, mask: Arc::new(mask), ..self }
+    }
+    /// The tables of its motions for `shaders/motion/pose.wgsl`, and their sizes.
+    #[must_use]
+    pub fn motion_tables(&self) -> (Vec<Table>, [(Name, u64); 2]) {
+        let motion::Tables { motions, keys, sizes: [rows, all] } = motion::tables(&self.motions, self.dt);
+        let names = ["motions", "keyframes"].map(Name::from);
+        let [first, second] = names.clone();
+        (names.into_iter().zip([motions, keys]).collect(), [(first, rows), (second, all)])
     }
     /// The same with these motions, in steps of `dt`.
     #[must_use]

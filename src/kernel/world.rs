@@ -28,7 +28,7 @@ impl World {
     }
     /// The members of `World`, by name.
     #[must_use]
-    pub fn members(&self) -> [(&'static str, Scalar); 11] {
+    pub fn members(&self) -> [(&'static str, Scalar); 12] {
         let sides = self.bounds.sides.map(|side| side as u32);
         [
             ("time", Scalar::Float(self.time)),
@@ -41,6 +41,7 @@ impl World {
             ("high", Scalar::Vector(self.bounds.high)),
             ("sides", Scalar::Uint(sides[0] | sides[1] << 8 | sides[2] << 16)),
             ("period", Scalar::Vector(self.bounds.period())),
+            ("zero", Scalar::Uint(0)),
             ("frequency", Scalar::Vector(self.bounds.frequency())),
         ]
     }

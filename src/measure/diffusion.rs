@@ -5,8 +5,7 @@ use std::borrow::Cow;
 use glam::DVec3;
 
 use super::series::number;
-use super::thermo::held;
-use super::{Measure, Moment, Row, Series};
+use super::{Measure, Moment, Row, Series, Times};
 use crate::error::Error;
 use crate::kernel::Kind as Element;
 use crate::settings::{Key, Kind, Value};
@@ -27,6 +26,7 @@ pub const MEASURE: Measure = Measure {
         ("vacf", "⟨v(0) · v(t)⟩ [length² / time²]"),
         ("diffusion", "msd / 2 d t in d dimensions, which is the coefficient of diffusion for long times; empty at the start [length² / time]"),
     ],
+    times: Times::Chosen,
     usual: |_| Ok(None),
     begin: |setup, settings| {
         let state = &setup.state;
@@ -47,8 +47,8 @@ pub const MEASURE: Measure = Measure {
             ));
         }
         let species = settings.species("species");
-        let held = held(state);
-        let is_of = |i: &usize| !held[*i] && species.is_none_or(|species| state.species()[*i] == species);
+        let fixed = state.fixed();
+        let is_of = |i: &usize| !fixed[*i] && species.is_none_or(|species| state.species()[*i] == species);
         let chosen: Vec<usize> = (0..state.len()).filter(is_of).collect();
         if chosen.is_empty() {
             let why = "`diffusion` measures a species of which no particle moves: choose another, or \"all\"".to_owned();

@@ -4,7 +4,7 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 use super::series::number;
-use super::{Measure, Moment, Row, Series};
+use super::{Measure, Moment, Row, Series, Times};
 use crate::error::Error;
 use crate::settings::Settings;
 use crate::state::State;
@@ -25,6 +25,7 @@ pub const MEASURE: Measure = Measure {
         ("angular_momentum_y", "along y"),
         ("angular_momentum_z", "along z"),
     ],
+    times: Times::Outputs,
     usual: |_| Ok(Some(Settings::default())),
     begin: |_, _| Ok(Box::new(Energies::default())),
 };

@@ -6,7 +6,7 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 use super::series::number;
-use super::{Measure, Moment, Row, Series};
+use super::{Measure, Moment, Row, Series, Times};
 use crate::error::Error;
 use crate::kernel::Bounds;
 use crate::neighbors::Cells;
@@ -29,6 +29,7 @@ pub const MEASURE: Measure = Measure {
         ("clusters", "sets of particles that are joined by chains of neighbours (friends of friends; Davis et al. 1985)"),
         ("largest_cluster", "the part of all particles that is in the largest of them"),
     ],
+    times: Times::Chosen,
     usual: |setup| {
         let radius = setup.forces.iter().find_map(|force| force.properties().statistics_radius);
         Ok(radius.map(|(range, species)| {

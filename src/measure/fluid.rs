@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use super::series::{number, whole};
-use super::{Cell, Measure, Moment, Row, Series};
+use super::{Cell, Measure, Moment, Needs, Row, Series, Times};
 use crate::error::Error;
 use crate::kernel::{Bounds, Machine, Reason};
 use crate::settings::{Settings, plain};
@@ -35,6 +35,7 @@ pub const MEASURE: Measure = Measure {
         ("outside", "particles outside of the box; must be 0"),
         ("broken", "particles with NaN or infinity; must be 0"),
     ],
+    times: Times::Ledger,
     usual: |setup| {
         let flows = setup.forces.iter().any(|force| force.properties().makes_fluid);
         Ok(flows.then(Settings::default))
@@ -193,6 +194,9 @@ impl Book {
 }
 
 impl Series for Book {
+    fn needs(&self) -> Needs {
+        Needs { density: true, ..Needs::default() }
+    }
     fn take(&mut self, moment: &Moment<'_>) -> Result<Vec<Row>, Error> {
         let held = |id: usize| self.held.get(id).copied().unwrap_or(false);
         let row = Ledger::of(moment.state, moment.density, &self.medium, &self.bounds, held)?;

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::{Measure, Moment, Row, Series};
+use super::{Measure, Moment, Row, Series, Times};
 use crate::error::Error;
 use crate::grains::touching;
 use crate::kernel::{Array, Bounds};
@@ -23,6 +23,7 @@ pub const MEASURE: Measure = Measure {
         ("top", "the highest point of any, along z [length]"),
         ("reach", "the largest distance of the centre of a grain that touches another from the z axis [length]"),
     ],
+    times: Times::Chosen,
     usual: |_| Ok(None),
     begin: |setup, _| {
         if setup.columns()?.get("radius").is_none() {

@@ -10,7 +10,7 @@ pub use flock::{Flock, Flocks};
 pub use fluid::{Book, Ledger};
 pub use population::Counts;
 pub use pressure::Pressures;
-pub use series::{Cell, Moment, Row, Series};
+pub use series::{Cell, Moment, Needs, Row, Series};
 pub use thermo::Thermo;
 
 use crate::error::Error;
@@ -27,6 +27,8 @@ pub struct Measure {
     pub keys: &'static [Key],
     /// The cells of a row after step and time, each with its meaning and its unit.
     pub cells: &'static [(&'static str, &'static str)],
+    /// When it is taken.
+    pub times: Times,
     /// The settings with which a run takes it by default; `None` if it does not.
     pub usual: fn(&Setup) -> Result<Option<Settings>, Error>,
     /// Begins a series of it.
@@ -34,6 +36,17 @@ pub struct Measure {
     /// # Errors
     /// [`Error::Setting`] and [`Error::Scene`] where the run has nothing to measure.
     pub begin: Begin,
+}
+
+/// When a measure is taken.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Times {
+    /// At each output, or every so many steps.
+    Chosen,
+    /// At each output only.
+    Outputs,
+    /// As chosen, or after each step in a run with [a ledger](crate::run::Options::ledger).
+    Ledger,
 }
 
 /// A function that begins a series of a run with such settings.

@@ -1,6 +1,6 @@
 //! Counts of pending, active and removed particles.
 
-use super::{Measure, Moment, Row, Series};
+use super::{Measure, Moment, Row, Series, Times};
 use crate::error::Error;
 use crate::life::Population;
 use crate::settings::Settings;
@@ -17,6 +17,7 @@ pub const MEASURE: Measure = Measure {
         ("spawned", "particles that were ever active"),
         ("mass", "the mass of all [mass]"),
     ],
+    times: Times::Chosen,
     usual: |setup| Ok(setup.state.has_inactive().then(Settings::default)),
     begin: |_, _| Ok(Box::new(Counts::default())),
 };

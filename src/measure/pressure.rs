@@ -3,8 +3,8 @@
 use glam::DVec3;
 
 use super::series::number;
-use super::thermo::{held, moving};
-use super::{Measure, Moment, Row, Series};
+use super::thermo::moving;
+use super::{Measure, Moment, Needs, Row, Series, Times};
 use crate::error::Error;
 use crate::kernel::Side;
 
@@ -23,6 +23,7 @@ pub const MEASURE: Measure = Measure {
         ("xz", "along x, across z"),
         ("xy", "along x, across y"),
     ],
+    times: Times::Chosen,
     usual: |_| Ok(None),
     begin: |setup, _| {
         let bounds = setup.bounds;
@@ -36,7 +37,7 @@ pub const MEASURE: Measure = Measure {
         setup.has_virial()?;
         let size = bounds.high - bounds.low;
         let volume = (0..axes).map(|axis| size[axis]).product();
-        Ok(Box::new(Pressures { held: held(&setup.state), volume, axes, rows: Vec::new() }))
+        Ok(Box::new(Pressures { held: setup.state.fixed(), volume, axes, rows: Vec::new() }))
     },
 };
 
@@ -58,6 +59,9 @@ impl Pressures {
 }
 
 impl Series for Pressures {
+    fn needs(&self) -> Needs {
+        Needs { virial: true, ..Needs::default() }
+    }
     fn take(&mut self, moment: &Moment<'_>) -> Result<Vec<Row>, Error> {
         let Some(virial) = moment.virial else {
             return Err(Error::Scene("the measure `pressure` needs the virial of the state".to_owned()));

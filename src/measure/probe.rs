@@ -3,7 +3,7 @@
 use glam::DVec3;
 use rayon::prelude::*;
 
-use super::{Cell, Measure, Moment, Row, Series};
+use super::{Cell, Measure, Moment, Row, Series, Times};
 use crate::error::Error;
 use crate::kernel::Bounds;
 use crate::neighbors::Cells;
@@ -30,6 +30,7 @@ pub const MEASURE: Measure = Measure {
         ("velocity_y", "along y"),
         ("velocity_z", "along z"),
     ],
+    times: Times::Chosen,
     usual: |_| Ok(None),
     begin: |setup, settings| {
         let (bounds, range, count) = (setup.bounds, settings.number("range"), settings.whole("count"));

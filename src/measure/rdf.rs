@@ -6,7 +6,7 @@ use std::f64::consts::PI;
 use glam::DVec3;
 use rayon::prelude::*;
 
-use super::{Measure, Moment, Row, Series};
+use super::{Measure, Moment, Row, Series, Times};
 use crate::error::Error;
 use crate::kernel::{Bounds, Side};
 use crate::neighbors::Cells;
@@ -28,6 +28,7 @@ pub const MEASURE: Measure = Measure {
         ("g", "the density of particles there, relative to their mean density in the box"),
         ("within", "the mean number of particles from 0 to the end of the interval"),
     ],
+    times: Times::Chosen,
     usual: |_| Ok(None),
     begin: |setup, settings| {
         let bounds = setup.bounds;

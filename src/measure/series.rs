@@ -14,14 +14,23 @@ use crate::state::State;
 pub struct Moment<'a> {
     /// The state, which is shared with writers that use a thread of their own. For a measure it has the column `potential`.
     pub state: &'a Arc<State>,
-    /// The densities of a fluid, by row; empty where there is no fluid.
+    /// The densities of a fluid, by row; empty where no measure needs them.
     pub density: &'a [f32],
     /// The clock, where steps are adaptive.
     pub clock: Option<&'a Clock>,
     /// The remaining links, where they may break.
     pub links: Option<&'a Links>,
-    /// The virial −½ Σ r ⊗ F of forces of pairs, where the measure `pressure` is taken: xx, yy, zz, yz, xz, xy \[energy\].
+    /// The virial −½ Σ r ⊗ F of forces of pairs, where a measure needs it: xx, yy, zz, yz, xz, xy \[energy\].
     pub virial: Option<[f64; 6]>,
+}
+
+/// What a measure reads beside the state.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Needs {
+    /// The densities of a fluid.
+    pub density: bool,
+    /// The virial of forces of pairs.
+    pub virial: bool,
 }
 
 /// A measure in the course of a run.
@@ -33,6 +42,10 @@ pub trait Series: Any + Debug + Send + Sync {
     fn take(&mut self, moment: &Moment<'_>) -> Result<Vec<Row>, Error>;
     /// Reads back a row that it returned before the run was stopped: the cells after the step, so that the time is the first.
     fn recall(&mut self, step: u64, cells: &[&str]);
+    /// What it reads beside the state.
+    fn needs(&self) -> Needs {
+        Needs::default()
+    }
     /// A line for the end of a run.
     fn summary(&self) -> Option<String> {
         None

@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use super::series::number;
-use super::{Measure, Moment, Row, Series};
+use super::{Measure, Moment, Row, Series, Times};
 use crate::error::Error;
 use crate::settings::{Key, Kind, Value};
 use crate::state::State;
@@ -28,24 +28,14 @@ pub const MEASURE: Measure = Measure {
         ("potential", "the potential energy per particle [mass length² / time²]"),
         ("total", "both [mass length² / time²]"),
     ],
+    times: Times::Chosen,
     usual: |_| Ok(None),
     begin: |setup, settings| {
-        let held = held(&setup.state);
+        let held = setup.state.fixed();
         let (boltzmann, drift) = (settings.number("boltzmann"), settings.flag("drift"));
         Ok(Box::new(Thermo { held, boltzmann, drift, dimensions: setup.bounds.dimensions, ends: None }))
     },
 };
-
-/// Whether each particle is fixed.
-pub(super) fn held(state: &State) -> Vec<bool> {
-    let mut held = vec![false; state.len()];
-    for one in &state.held {
-        if let Some(held) = held.get_mut(one.id as usize) {
-            *held = true;
-        }
-    }
-    held
-}
 
 /// The particles that move by forces, and the mean velocity of their mass.
 pub(super) fn moving(state: &State, held: &[bool]) -> (Vec<usize>, DVec3) {

@@ -51,17 +51,20 @@ impl Motion {
     fn check(&self, dimensions: u32, dt: f64) -> Result<(), String> {
         let fits = |v: DVec3| v.to_array().into_iter().all(|x| x.abs() <= f64::from(f32::MAX));
         let (Some(first), Some(last)) = (self.keys.first(), self.keys.last()) else {
-            return Err("has no keys: give it at least one".to_owned());
+            return Err("has no keyframes: give it at least one".to_owned());
         };
         if !fits(self.about) {
             return Err(format!("rotates by {}: these must be finite numbers that fit single precision", self.about));
         }
         for key in &self.keys {
             if !(key.time.is_finite() && fits(key.shift) && fits(key.turn)) {
-                return Err("has a key with a number that is NaN, infinite or beyond single precision".to_owned());
+                return Err("has a keyframe with a number that is NaN, infinite or beyond single precision".to_owned());
             }
             if (key.time / dt).abs() > MOST_STEPS {
-                return Err(format!("has a key at {}, more than {MOST_STEPS:e} steps away", key.time));
+                return Err(format!(
+                    "has a keyframe at {:?}, more than {MOST_STEPS:e} steps away: choose another time",
+                    key.time
+                ));
             }
             let across = key.shift.z != 0.0 || key.turn.x != 0.0 || key.turn.y != 0.0;
             if dimensions == 2 && across {
@@ -70,7 +73,10 @@ impl Motion {
             }
         }
         if let Some(pair) = self.keys.windows(2).find(|pair| pair[1].time <= pair[0].time) {
-            return Err(format!("has a key at {} after one at {}: times must increase", pair[1].time, pair[0].time));
+            return Err(format!(
+                "has a keyframe at {} after one at {}: times must increase",
+                pair[1].time, pair[0].time
+            ));
         }
         if self.repeat {
             let period = last.time - first.time;
@@ -79,7 +85,7 @@ impl Motion {
             }
             if !same(first, last) {
                 return Err(
-                    "repeats, and its last key differs from its first: it would jump; make them equal".to_owned()
+                    "repeats, and its last keyframe differs from its first: it would jump; make them equal".to_owned()
                 );
             }
         }

@@ -233,7 +233,7 @@ pub fn checked(range: f64) -> Result<(), Error> {
         return Ok(());
     }
     Err(Error::Scene(format!(
-        "a search for neighbours has a range of {range}: it must be above 0, and between 1.1e-19 and 1.8e19, so that \
+        "a search for neighbours has a range of {range:e}: it must be between 1.1e-19 and 1.8e19, so that \
          single precision holds its square"
     )))
 }

@@ -90,6 +90,12 @@ pub const KEYS: &[Key] = &[
         "brightness of lights, as a multiple of the automatic one",
     ),
     Key::new(
+        "annotate",
+        Kind::Flag,
+        Value::Flag(false),
+        "write the time, the axes, a bar of length (at the centre) and the scale of colours in the corners",
+    ),
+    Key::new(
         "background",
         Kind::Choice(&["night", "black", "dusk", "day"]),
         word("night"),

@@ -15,6 +15,8 @@ mod frame;
 mod heading;
 mod keys;
 mod light;
+#[cfg(feature = "images")]
+mod notes;
 mod palette;
 mod passes;
 mod picture;

@@ -31,6 +31,8 @@ pub struct Picture {
     facets: Facets,
     /// The style, by its name in the register.
     style: &'static str,
+    /// Whether notes are written on it.
+    annotated: bool,
     /// Whether some may not be active, which are not drawn.
     has_inactive: bool,
 }
@@ -147,6 +149,7 @@ impl Picture {
             exposure: settings.number("exposure"),
             facets,
             style: entry.name,
+            annotated: settings.flag("annotate"),
             has_inactive: !particles.life().is_empty() || particles.capacity.is_some(),
         })
     }
@@ -164,6 +167,11 @@ impl Picture {
     pub fn contain(&mut self, tanks: Vec<Solid>) {
         self.facets.contain(tanks);
         self.frame.water.edges = if self.frame.water.is_there() { self.facets.edges() } else { 0 };
+    }
+    /// Whether the scene asks for [notes](super::Image::annotate) on it.
+    #[must_use]
+    pub fn annotated(&self) -> bool {
+        self.annotated
     }
     /// From particles to light: what runs before the exposure is known.
     ///
@@ -194,6 +202,11 @@ impl Picture {
         let mut plan = Plan::default();
         self.style().develop(self, exposure, &mut plan)?;
         Ok(plan)
+    }
+    /// The same in another style.
+    #[cfg(test)]
+    pub(super) fn styled(self, style: &'static str) -> Self {
+        Self { style, ..self }
     }
     pub(super) fn style(&self) -> &'static dyn Style {
         STYLES.iter().find(|entry| entry.name == self.style).map_or(STYLES[0].style, |entry| entry.style)

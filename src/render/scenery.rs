@@ -76,7 +76,9 @@ impl Scenery {
             return self.clone();
         }
         let of = |inside| {
-            let those = standing.iter().filter(move |one| one.inside == inside);
+            // The surface of a cone is seen from within, and so hides nothing.
+            let open = |one: &Standing| matches!(one.solid, crate::solids::Solid::Cone { .. });
+            let those = standing.iter().filter(move |one| (one.inside && !open(one)) == inside);
             those.map(|one| Solid::at(one, motions, time)).collect()
         };
         // Where walls are held, a container is but what stands behind them.

@@ -40,7 +40,7 @@ pub enum Shape {
     },
     /// All below z = 0: a floor.
     Plane,
-    /// The surface of a cone about z, which is drawn as edges.
+    /// The surface of a cone about z, cut open towards the eye.
     Cone {
         /// The radius at the lower end \[length\].
         radius: f64,
@@ -56,6 +56,7 @@ pub const WORDS: usize = 12;
 const ROUND: u32 = 0;
 const BOX: u32 = 1;
 const PLANE: u32 = 2;
+const CONE: u32 = 3;
 
 impl Solid {
     /// A solid of a scene, at its position at a time.
@@ -104,8 +105,7 @@ impl Solid {
             Shape::Capsule { radius, half } => (radius, half * DVec3::Z, ROUND),
             Shape::Box { half } => (0.0, half, BOX),
             Shape::Plane => (0.0, square_of(camera.extent) * DVec3::X, PLANE),
-            // It has no face: the device draws its edges alone.
-            Shape::Cone { .. } => (0.0, DVec3::ZERO, ROUND),
+            Shape::Cone { radius, end, half } => (radius, DVec3::new(end, 0.0, half), CONE),
         };
         #[expect(clippy::cast_possible_truncation, reason = "rounding to f32 is what the device does")]
         let bits = |x: f64| (x as f32).to_bits();

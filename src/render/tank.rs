@@ -11,12 +11,11 @@ const AWAY: f64 = -1e6;
 /// Chords of a circle.
 const CHORDS: u32 = 48;
 
-/// How many edges a tank has: a rectangle 4, a box 12, a cone two circles and lines between them, a capsule two circles, and nothing else any.
+/// How many edges a tank has: a rectangle 4, a box 12, a capsule two circles, and nothing else any.
 pub fn number(tank: &Solid) -> u32 {
     match tank.shape {
         Shape::Box { half } if half.z == 0.0 => 4,
         Shape::Box { .. } => 12,
-        Shape::Cone { .. } => 2 * CHORDS + CHORDS / 4,
         Shape::Capsule { .. } => 2 * CHORDS,
         _ => 0,
     }
@@ -39,8 +38,7 @@ pub struct Cover {
 pub fn edges(tank: &Solid, frame: &Frame) -> Vec<Edge> {
     let half = match tank.shape {
         Shape::Box { half } => half,
-        Shape::Cone { radius, end, half } => return rings(tank, frame, [radius, end], half, CHORDS / 4),
-        Shape::Capsule { radius, half } => return rings(tank, frame, [radius; 2], half, 0),
+        Shape::Capsule { radius, half } => return rings(tank, frame, radius, half),
         _ => return Vec::new(),
     };
     let corner = |bits: usize| {
@@ -53,17 +51,15 @@ pub fn edges(tank: &Solid, frame: &Frame) -> Vec<Edge> {
     pairs.map(|(a, b)| Edge { ends: seen(frame, corner(a), corner(b)) }).collect()
 }
 
-/// Two circles about z, at both ends, and lines between them.
-fn rings(tank: &Solid, frame: &Frame, radii: [f64; 2], half: f64, lines: u32) -> Vec<Edge> {
+/// Two circles about z, at both ends.
+fn rings(tank: &Solid, frame: &Frame, radius: f64, half: f64) -> Vec<Edge> {
     let at = |end: usize, chord: u32| {
         let (sine, cosine) = (std::f64::consts::TAU * f64::from(chord) / f64::from(CHORDS)).sin_cos();
         let z = if end == 0 { -half } else { half };
-        tank.place + tank.turn * DVec3::new(radii[end] * cosine, radii[end] * sine, z)
+        tank.place + tank.turn * DVec3::new(radius * cosine, radius * sine, z)
     };
     let circles = (0..2).flat_map(|end| (0..CHORDS).map(move |chord| [(end, chord), (end, chord + 1)]));
-    let between = (0..lines).map(|line| [(0, line * CHORDS / lines), (1, line * CHORDS / lines)]);
-    let all = circles.chain(between);
-    all.map(|[a, b]| Edge { ends: seen(frame, at(a.0, a.1), at(b.0, b.1)) }).collect()
+    circles.map(|[a, b]| Edge { ends: seen(frame, at(a.0, a.1), at(b.0, b.1)) }).collect()
 }
 
 impl Edge {

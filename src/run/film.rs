@@ -164,11 +164,12 @@ impl Film {
         let file = to.1.file(&self.frame(self.done.len()))?;
         let Some(reel) = &mut self.reel else { return Ok(()) };
         reel.retrace(trail);
-        let scenery = to.0.scenery.at(step as f64 * self.dt);
+        let time = step as f64 * self.dt;
+        let scenery = to.0.scenery.at(time);
         reel.place(scenery.solids);
         reel.contain(scenery.tanks);
         let image = simulation.shoot(reel).await?;
-        let image = Arc::new(image);
+        let image = Arc::new(images::note(image, reel.picture(), time));
         images::save_later(&image, file.clone(), to.1, &self.stream)?;
         progress.frame(self.done.len(), step, &file);
         self.done.push(file);

@@ -7,7 +7,7 @@ use super::Folder;
 use super::stream::Stream;
 use crate::error::Error;
 use crate::measure::Energy;
-use crate::render::Image;
+use crate::render::{Image, Picture};
 use crate::scene::Output;
 
 /// Whether this build can write the pictures of a scene.
@@ -23,6 +23,18 @@ pub fn check(output: &Output) -> Result<(), Error> {
          output.formats and set output.frames = 0, or build it with the feature `images`"
             .to_owned(),
     ))
+}
+
+/// Notes on an image, where its picture asks for them. A build without the feature `images` makes no files of it.
+pub fn note(image: Image, picture: &Picture, time: f64) -> Image {
+    #[cfg(feature = "images")]
+    if picture.annotated() {
+        let mut image = image;
+        image.annotate(picture, time);
+        return image;
+    }
+    let _ = (picture, time);
+    image
 }
 
 /// A PNG of a picture.

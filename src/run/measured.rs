@@ -63,7 +63,7 @@ impl Measured {
     }
     /// Whether it is taken after `done` steps of dt, or at this output.
     pub(super) fn is_due(&self, done: u64, is_output: bool) -> bool {
-        self.every.map_or(is_output, |every| done.is_multiple_of(every))
+        self.each_step || self.every.map_or(is_output, |every| done.is_multiple_of(every))
     }
     /// Opens its table. Where the run continues, it is truncated to the length in the checkpoint, and the remaining rows are read.
     pub(super) fn open(&mut self, folder: &Arc<Folder>, past: &Lengths) -> Result<(), Error> {

@@ -73,6 +73,7 @@ pub use crate::measure::Moment;
 use crate::error::Error;
 use crate::formats::{self, Precision};
 use crate::kernel::{Backend, Bounds, Columns, POSITION, Side};
+use crate::measure::Times;
 use crate::render::{Picture, Scenery, Trail};
 use crate::scene::Scene;
 use crate::simulation::{Setup, Simulation};
@@ -192,7 +193,10 @@ impl Run {
         Self::of(scene, setup, options, None)
     }
     /// A run of a scene, into a folder that is or will be locked.
-    fn of(scene: Scene, setup: &Setup, options: Options, folder: Option<Arc<Folder>>) -> Result<Self, Error> {
+    fn of(scene: Scene, setup: &Setup, mut options: Options, folder: Option<Arc<Folder>>) -> Result<Self, Error> {
+        if setup.integrator.precision().is_double() {
+            options.precision = Precision::Double;
+        }
         let packed = Packed::of(&scene, options.also(), options.from.as_deref())?;
         let begun = course::begun(&scene, &setup.state);
         let properties = || setup.forces.iter().map(|force| force.properties());
@@ -202,7 +206,7 @@ impl Run {
         Picture::with(&scene.picture, &setup.state, &[], Trail::new(0), &scenery)?;
         let (count, stream) = (setup.state.len(), Stream::default());
         let mut measures = Measured::all(&scene.measures, setup)?;
-        measures.iter_mut().for_each(|one| one.each_step = options.ledger && one.measure.name == "fluid");
+        measures.iter_mut().for_each(|one| one.each_step = options.ledger && one.measure.times == Times::Ledger);
         Ok(Self {
             begun,
             count,

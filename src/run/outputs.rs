@@ -5,13 +5,14 @@ use std::sync::Arc;
 
 use super::Run;
 use super::course::Course;
+use super::images;
 use super::measured::Measured;
 use super::progress::Progress;
 use super::table::Table;
 use super::writer::Writer;
 use crate::error::Error;
 use crate::kernel::Backend;
-use crate::measure::{Book, Energies, Energy, Moment, Pressures, Series};
+use crate::measure::{Energies, Energy, Moment, Series};
 use crate::simulation::Simulation;
 use crate::sph::DENSITY;
 use crate::state::State;
@@ -27,11 +28,12 @@ impl Run {
         let columns = self.scene.output.columns.clone();
         let wanted: Vec<&str> = columns.iter().map(String::as_str).collect();
         let mut state = Arc::new(simulation.snapshot_of(&wanted).await?);
-        let (links, density) = (simulation.torn().await?, self.density(simulation).await?);
-        let virial = self.virial(simulation, |one| one.is_due(course.done(), true) || one.each_step).await?;
+        let links = simulation.torn().await?;
+        let due = |one: &Measured| one.is_due(course.done(), true);
+        let (density, virial) = self.needed(simulation, due).await?;
         let clock = course.clock();
         let moment = Moment { state: &state, density: &density, clock, links: links.as_ref(), virial };
-        self.measure(&moment, |one| one.is_due(course.done(), true) || one.each_step, progress)?;
+        self.measure(&moment, due, progress)?;
         for table in self.tables() {
             table.settle_later(&self.stream)?;
         }
@@ -50,7 +52,7 @@ impl Run {
             let writer = &mut self.all()[number];
             writer.take(&moment)?;
             let Some(picture) = writer.picture(&moment)? else { continue };
-            let image = simulation.draw(&picture).await?;
+            let image = images::note(simulation.draw(&picture).await?, &picture, state.time);
             self.all()[number].drawn(state.step, image)?;
         }
         if let Some(row) = self.energies().last().copied() {
@@ -69,10 +71,11 @@ impl Run {
         course: &Course,
         progress: &mut dyn Progress,
     ) -> Result<(), Error> {
-        let (state, density) = (Arc::new(simulation.snapshot().await?), self.density(simulation).await?);
-        let virial = self.virial(simulation, |one| one.is_due(course.done(), false) || one.each_step).await?;
+        let state = Arc::new(simulation.snapshot().await?);
+        let due = |one: &Measured| one.is_due(course.done(), false);
+        let (density, virial) = self.needed(simulation, due).await?;
         let moment = Moment { state: &state, density: &density, clock: course.clock(), links: None, virial };
-        self.measure(&moment, |one| one.is_due(course.done(), false) || one.each_step, progress)?;
+        self.measure(&moment, due, progress)?;
         self.look(state, course, progress)
     }
     /// Takes in the energy of a state between two outputs.
@@ -106,19 +109,20 @@ impl Run {
     }
     /// Whether measures are due that are independent of outputs.
     pub(super) fn measures_between(&self, done: u64) -> bool {
-        self.measures.iter().any(|one| one.is_due(done, false) || one.each_step)
+        self.measures.iter().any(|one| one.is_due(done, false))
     }
-    async fn density<B: Backend>(&self, simulation: &mut Simulation<B>) -> Result<Vec<f32>, Error> {
-        if self.series::<Book>().is_some() { simulation.read(DENSITY).await } else { Ok(Vec::new()) }
-    }
-    /// The virial, where it is measured now.
-    async fn virial<B: Backend>(
+    /// The densities of a fluid and the virial, where a measure that is due needs them.
+    async fn needed<B: Backend>(
         &self,
         simulation: &mut Simulation<B>,
         is_due: impl Fn(&Measured) -> bool,
-    ) -> Result<Option<[f64; 6]>, Error> {
-        let asks = |one: &&Measured| is_due(one) && (&*one.series as &dyn Any).is::<Pressures>();
-        if self.measures.iter().any(|one| asks(&one)) { simulation.virial().await.map(Some) } else { Ok(None) }
+    ) -> Result<(Vec<f32>, Option<[f64; 6]>), Error> {
+        let due: Vec<_> = self.measures.iter().filter(|one| is_due(one)).map(|one| one.series.needs()).collect();
+        let density = due.iter().any(|needs| needs.density);
+        let density = if density { simulation.read(DENSITY).await? } else { Vec::new() };
+        let virial = due.iter().any(|needs| needs.virial);
+        let virial = if virial { Some(simulation.virial().await?) } else { None };
+        Ok((density, virial))
     }
     /// The series of that type, if the run has such a measure: `run.series::<Flocks>()`; the first, if there are several.
     #[must_use]

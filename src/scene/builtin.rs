@@ -62,4 +62,6 @@ pub const SCENES: &[Builtin] = scenes![
     "salt",
     "argon",
     "vapour",
+    "pile",
+    "hopper",
 ];

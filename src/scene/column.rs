@@ -169,8 +169,7 @@ pub(super) fn give(
     for column in columns.iter().filter(|column| taken.iter().all(|key| key.name != column.name)) {
         let Some(entry) = table.get(&column.name) else {
             if column.initial.is_none() && particles.get(&column.name).is_none() {
-                let wanted = format!("{} [{}]", column.kind.name(), column.unit);
-                report.push(table.lacks(&column.name, &wanted, "the column has no initial value"));
+                report.push(table.lacks(&column.name, &column.described(), "the column has no initial value"));
             }
             continue;
         };

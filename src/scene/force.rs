@@ -100,7 +100,7 @@ fn over(table: &Table<'_>, report: &mut Report) -> Option<Over> {
         report.push(table.lacks("over", &Kind::Choice(Over::NAMES).wanted(), "which pairs are evaluated"));
         return None;
     };
-    let word = walk::choice(entry, "over", Over::NAMES, report)?;
+    let word = walk::choice(entry, "visit", Over::NAMES, report)?;
     // With a range, `auto` is the faster of two searches; otherwise a tree, or all pairs.
     let faster = word == "auto" && table.get("range").is_some() && table.get("theta").is_none();
     let wanted = match word {

@@ -33,7 +33,7 @@ pub(super) fn read(
             &entry.node.place,
             format!("no particle in {} is fixed, so the motion moves nothing", table.name),
         );
-        report.push(fault.label("name some: fixed = [0]"));
+        report.push(fault.label("fix some, as in fixed = [0]"));
     }
     let number = names.iter().position(|known| *known == name).and_then(|n| u32::try_from(n).ok()).unwrap_or(0);
     particles.held.iter_mut().for_each(|held| held.by = Hold::Motion(number));
@@ -71,7 +71,7 @@ fn fixed(table: &Table<'_>, particles: &mut State, out: &mut Writer, report: &mu
         let count = particles.len();
         if id >= count as f64 {
             let fault = Fault::at(&node.place, format!("there is no particle {id} in {}", table.name));
-            report.push(fault.label(format!("it has {count}, from 0 to {}", count.saturating_sub(1))));
+            report.push(fault.label(format!("it has {count}, counted from 0")));
             continue;
         }
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "whole, and below the count")]

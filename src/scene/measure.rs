@@ -1,7 +1,7 @@
 //! `[[measure]]`: tables that a run writes in addition to its states.
 
 use crate::error::Error;
-use crate::measure::{MEASURES, Measure, measure};
+use crate::measure::{MEASURES, Measure, Times, measure};
 use crate::settings::Settings;
 
 use super::Scene;
@@ -35,8 +35,9 @@ pub(super) fn read(table: &Table<'_>, dt: f64, out: &mut Writer, report: &mut Re
     let table = table.named(format!("{} {}", table.name, measure.name));
     let settings = table.settings(measure.keys, OWN, report);
     let every = table.get("every").and_then(|entry| interval(entry, dt, report));
-    if measure.name == "energy" && every.is_some() {
-        let fault = Fault::at(table.place, "energies are measured at each output, and `every` is not for them");
+    if measure.times == Times::Outputs && every.is_some() {
+        let text = format!("`{}` is measured at each output, and `every` is not for it", measure.name);
+        let fault = Fault::at(table.place, text);
         report.push(fault.label("remove `every`, or set [output] every"));
     }
     if report.len() > faults {

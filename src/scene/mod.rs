@@ -48,7 +48,7 @@ use std::path::{Path, PathBuf};
 
 use crate::forces::Component;
 use crate::integrators;
-use crate::kernel::{AdaptiveStep, Bounds, Solver};
+use crate::kernel::{AdaptiveStep, Bounds, Precision, Solver};
 use crate::render;
 use crate::settings::Settings;
 use crate::simulation::Setup;
@@ -93,6 +93,8 @@ pub struct Scene {
     pub until: f64,
     /// The adaptive time step, if steps are adaptive.
     pub adaptive_step: Option<AdaptiveStep>,
+    /// The precision of positions and velocities.
+    pub precision: Precision,
     /// The integrator.
     pub integrator: &'static integrators::Entry,
     /// The settings of the integrator.
@@ -155,7 +157,11 @@ impl Scene {
     /// The integrator, with the settings of the scene.
     #[must_use]
     pub fn integrator(&self) -> Box<dyn integrators::Integrator> {
-        (self.integrator.build)(&self.integrator_settings)
+        let integrator = (self.integrator.build)(&self.integrator_settings);
+        match self.precision {
+            Precision::Single => integrator,
+            Precision::Compensated => Box::new(integrators::Precise { integrator, precision: self.precision }),
+        }
     }
     /// The setup of a simulation. It takes the particles and forces; the scene is left without them.
     pub fn setup(&mut self) -> Setup {
@@ -347,6 +353,7 @@ fn read(sections: &[(&'static str, Table<'_>)], files: &Files, options: &Options
         given_dt: simulation.given_dt,
         steps: simulation.steps,
         until: simulation.until,
+        precision: simulation.precision,
         adaptive_step: simulation.adaptive_step.map(|(adaptive_step, _)| adaptive_step),
         integrator: simulation.integrator,
         integrator_settings: simulation.integrator_settings,

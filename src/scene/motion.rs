@@ -45,7 +45,9 @@ pub(super) fn read(
         None
     };
     if let Some((name, place)) = name.filter(|(name, _)| earlier.iter().any(|motion| motion.name == *name)) {
-        report.push(Fault::at(place, format!("two motions are called \"{}\"", shorten(name))).label("the second one"));
+        report.push(
+            Fault::at(place, format!("two motions are called \"{}\"", shorten(name))).label("rename one of them"),
+        );
     }
     let mut text = String::from("[\n");
     let keys = if let Some(entry) = table.get("keys") {
@@ -90,7 +92,7 @@ fn keys(node: &Node, text: &mut String, report: &mut Report) -> Vec<Keyframe> {
             continue;
         };
         let faults = report.len();
-        let table = Table { entries, place: &node.place, name: "a key".to_owned() };
+        let table = Table { entries, place: &node.place, name: "a keyframe".to_owned() };
         let settings = table.settings(KEYFRAME, &[], report);
         let (time, shift, turn) = (settings.number("time"), settings.vector("shift"), settings.vector("turn"));
         if let (Some(last), true) = (keys.last(), report.len() == faults)
@@ -98,7 +100,7 @@ fn keys(node: &Node, text: &mut String, report: &mut Report) -> Vec<Keyframe> {
         {
             let place = table.get("time").map_or(&node.place, |entry| &entry.node.place);
             report.push(
-                Fault::at(place, format!("a key at {time} comes after one at {}", last.time))
+                Fault::at(place, format!("a keyframe at {time} comes after one at {}", last.time))
                     .label("times must increase"),
             );
         }

@@ -123,7 +123,7 @@ fn descend(node: &mut Node, path: &[Part<'_>], done: &str, value: Node, report: 
             let element = first.word.parse::<usize>().map(|i| list.get_mut(i));
             match element {
                 Ok(Some(element)) => descend(element, rest, &join(done, first.word), value, report),
-                Ok(None) => Err(Fault::at(&first.place, format!("there is no {}", join(done, first.word)))
+                Ok(None) => Err(Fault::at(&first.place, format!("there is no `{}`", join(done, first.word)))
                     .label(format!("`{done}` has {many}, counted from 0"))),
                 Err(_) => Err(Fault::at(&first.place, format!("`{done}` is a list, so its entries are numbered"))
                     .label(format!("write {done}.0.{} for the first", first.word))),

@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use crate::forces::{self, Component};
 use crate::settings::{Key, Kind, Pair};
-use crate::visit::{PairRow, PairTable};
+use crate::visit::{MOST_SPECIES, PairRow, PairTable};
 
 use super::force;
 use super::report::{Fault, Report};
@@ -77,7 +77,13 @@ fn species(table: &Table<'_>, report: &mut Report) -> Option<[u32; 2]> {
     let [a, b] = &two[..] else { return value::refuse(&entry.node, "species", TWO, report) };
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a species fits 32 bits")]
     let whole = |node: &Node, report: &mut Report| {
-        value::number(node, "species", Kind::Species, "a whole number from 0 on", report).map(|number| number as u32)
+        let number = value::number(node, "species", Kind::Species, "a whole number from 0 on", report)? as u32;
+        if number >= MOST_SPECIES {
+            let fault = Fault::at(&node.place, format!("species {number} is too large for parameters of pairs"));
+            report.push(fault.label(format!("it may be at most {}: number species from 0 on", MOST_SPECIES - 1)));
+            return None;
+        }
+        Some(number)
     };
     let (a, b) = (whole(a, report), whole(b, report));
     Some([a?, b?])

@@ -180,9 +180,8 @@ fn from_shape(
     if wanted > f64::from(room) {
         let sizes = ["count", "columns", "strands", "size"];
         let place = sizes.iter().find_map(|key| table.get(key)).map_or(&entry.node.place, |e| &e.node.place);
-        report.push(
-            Fault::at(place, format!("{wanted} particles are too many")).label(format!("there is room for {room}")),
-        );
+        report
+            .push(Fault::at(place, format!("{wanted} particles are too many")).label(format!("the maximum is {room}")));
         return None;
     }
     out.text("shape", name);
@@ -291,23 +290,21 @@ fn moved(mut particles: State, offsets: &Settings) -> State {
 fn sound(particles: &State, room: u32, place: &Place) -> Result<(), Fault> {
     let count = particles.len();
     if count == 0 {
-        return Err(Fault::at(place, "there are no particles in it"));
+        return Err(Fault::at(place, "this entry has no particles"));
     }
     if count > room as usize {
-        return Err(
-            Fault::at(place, format!("{count} particles are too many")).label(format!("there is room for {room}"))
-        );
+        return Err(Fault::at(place, format!("{count} particles are too many")).label(format!("the maximum is {room}")));
     }
     let fits = |x: f64| x.abs() <= f64::from(f32::MAX);
     let vectors = [("position", particles.position()), ("velocity", particles.velocity())];
     let wrong = vectors.iter().find_map(|(what, list)| {
         let id = list.iter().position(|v| !v.to_array().into_iter().all(fits))?;
-        Some((id, *what, format!("{}", list[id]), "finite numbers that fit single precision"))
+        Some((id, *what, format!("{:?}", list[id].to_array()), "finite numbers that fit single precision"))
     });
     let wrong = wrong.or_else(|| {
         [("mass", particles.mass()), ("size", particles.size())].iter().find_map(|(what, list)| {
             let id = list.iter().position(|&x| !(x >= 0.0 && fits(x)))?;
-            Some((id, *what, format!("{}", list[id]), "a finite number, zero or above"))
+            Some((id, *what, format!("{:?}", list[id]), "a finite number, zero or above"))
         })
     });
     match wrong {

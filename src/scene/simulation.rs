@@ -1,7 +1,7 @@
 //! `[simulation]`: the time step, the number of steps and the integrator.
 
 use crate::integrators::{self, INTEGRATORS, Integrator};
-use crate::kernel::AdaptiveStep;
+use crate::kernel::{AdaptiveStep, Precision};
 use crate::settings::{Key, Kind, Settings, Value};
 
 use super::report::{Fault, Place, Report};
@@ -38,6 +38,12 @@ pub(super) const KEYS: &[Key] = &[
         Value::Number(0.25),
         "the Courant number of adaptive steps, a factor of every limit",
     ),
+    Key::new(
+        "precision",
+        Kind::Choice(&Precision::NAMES),
+        Value::Text(std::borrow::Cow::Borrowed("single")),
+        "how positions and velocities are kept: one number of single precision, or the sum of two (\"compensated\")",
+    ),
 ];
 /// The keys of adaptive steps only.
 const ADAPTIVE: [&str; 3] = ["dt_min", "dt_before", "cfl"];
@@ -50,6 +56,8 @@ pub(super) struct Simulation {
     pub(super) integrator_settings: Settings,
     /// The adaptive time step, if steps are adaptive, and its place in the scene.
     pub(super) adaptive_step: Option<(AdaptiveStep, Place)>,
+    /// The precision of positions and velocities.
+    pub(super) precision: Precision,
     /// The end time.
     pub(super) until: f64,
     /// The step given in the scene, if it was reduced so that an integer of steps ends at `until`.
@@ -67,6 +75,7 @@ pub(super) fn read(table: Option<&Table<'_>>, report: &mut Report) -> Simulation
         integrator,
         integrator_settings,
         adaptive_step: None,
+        precision: Precision::Single,
         until: 1.0,
         given_dt: None,
         remark: None,
@@ -91,6 +100,7 @@ pub(super) fn read(table: Option<&Table<'_>>, report: &mut Report) -> Simulation
     if has_dt {
         simulation.dt = settings.number("dt");
     }
+    simulation.precision = Precision::named(settings.text("precision")).unwrap_or_default();
     let length = table.one_of(&["steps", "until"], report);
     if let Some(entry) = length.filter(|e| e.key == "steps") {
         simulation.steps = walk::whole_from_one(entry, report).unwrap_or(1);
@@ -159,7 +169,7 @@ fn adaptive_step(
         before: some("dt_before"),
     };
     if let Err(error) = adaptive_step.check(of.dt) {
-        report.push(Fault::at(&entry.place, "steps cannot be adaptive with this integrator").label(error.to_string()));
+        report.push(Fault::at(&entry.place, "the adaptive time step is out of range").label(error.to_string()));
     }
     if let Some(why) = of.made().fixed_step() {
         let fault = format!("steps cannot be adaptive: {why}");
@@ -210,6 +220,7 @@ impl Simulation {
             }
             None => out.line("steps", &self.steps.to_string()),
         }
+        out.text("precision", self.precision.name());
         out.text("integrator", self.integrator.name);
         out.settings(self.integrator.keys, &self.integrator_settings);
     }

@@ -51,7 +51,7 @@ impl Node {
             Data::Integer(_) | Data::Float(_) | Data::Flag(_) => quote(),
             Data::Date => format!("the date {}", quote()),
             Data::List(list) if list.is_empty() => "an empty list".to_owned(),
-            Data::List(list) => format!("a list of {}", list.len()),
+            Data::List(list) => format!("a list of length {}", list.len()),
             Data::Table(_) => "a table".to_owned(),
         }
     }
@@ -93,7 +93,7 @@ fn report_syntax(text: usize, body: &str, faults: Vec<toml::de::Error>, report: 
         let words = body.get(span.clone()).unwrap_or("").trim_matches(['"', '\'']);
         let place = Place { text, span };
         let (message, label) = match fault.message() {
-            "duplicate key" => (format!("`{}` is given twice", super::report::shorten(words)), "the second one"),
+            "duplicate key" => (format!("`{}` is given twice", super::report::shorten(words)), "remove one of them"),
             m if m.starts_with("cannot recurse further") || m.starts_with("recursion limit") => {
                 (TOO_DEEP.0.to_owned(), TOO_DEEP.1)
             }

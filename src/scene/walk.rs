@@ -60,7 +60,10 @@ impl<'a> Table<'a> {
             (Some((_, new)), _) => fault.label(format!("it is called `{new}`")),
             (None, Some(near)) => fault.label(format!("did you mean `{near}`?")),
             (None, None) => {
-                match SECTIONS.iter().find(|s| s.knows(&entry.key) && !self.name.starts_with(&s.header())) {
+                let own = SECTIONS.iter().find(|section| self.name.starts_with(&section.header()));
+                let home = SECTIONS.iter().find(|section| section.knows(&entry.key));
+                // Another shape, say, may have the key.
+                match home.filter(|_| !own.is_some_and(|own| own.knows(&entry.key))) {
                     Some(home) => fault.label(format!("it belongs in {}", home.header())),
                     None => fault,
                 }
@@ -109,7 +112,7 @@ pub(super) fn sections<'a>(root: &'a [Entry], report: &mut Report) -> Vec<(&'sta
                         Data::Table(entries) => add(node, entries),
                         _ => report.push(Fault::at(
                             &node.place,
-                            format!("`{}` must be a list of tables, not hold {}", section.name, node.describe(report)),
+                            format!("`{}` must be a list of tables, not of {}", section.name, node.describe(report)),
                         )),
                     }
                 }

@@ -117,7 +117,9 @@ pub fn build(settings: &Settings, dimensions: u32, end: f64, room: u32) -> Resul
     let most = if wanted > 0 { wanted as f64 } else { f64::INFINITY };
     let number = (rows * sites.len() as f64).min(most);
     if number < 1.0 {
-        return refuse(format!("starts at {start} and ends at {last}: no particle would be spawned"));
+        return refuse(format!(
+            "starts at {start} and ends at {last}, its `stop` or the end of the run: no particle would be spawned"
+        ));
     }
     if number > f64::from(room) {
         return Err(Error::Limit(format!(

@@ -11,6 +11,7 @@ pub mod disk;
 pub mod drop;
 pub mod emitter;
 mod exponential_disk;
+pub mod grains;
 pub mod hair;
 mod halo;
 pub mod hernquist;
@@ -105,6 +106,7 @@ pub const SHAPES: &[Shape] = &[
     wall::WALL,
     random_box::RANDOM_BOX,
     spray::SPRAY,
+    grains::GRAINS,
     chain::CHAIN,
     cloth::CLOTH,
     jelly::JELLY,

@@ -68,7 +68,7 @@ impl Skin {
         let support = reader.number("support", "1.5 to 6 spacings", |x| (1.5..=6.0).contains(&x))?;
         let layers = reader.settings.whole("layers");
         if layers > MOST {
-            return Err(reader.error(&format!("layers is {layers}; {MOST} are the most")));
+            return Err(reader.error(&format!("layers is {layers}; choose {MOST} at most")));
         }
         let lattice = reader.settings.text("wall_mass") == "lattice";
         let enough = if lattice { (1..6).find(|n| f64::from(*n) >= support).unwrap_or(6) } else { 1 };
@@ -100,7 +100,7 @@ impl Skin {
 /// The number of lattice cells along each side; 1 along z in two dimensions.
 pub(super) fn cells(reader: &Reader<'_>, size: DVec3, spacing: f64) -> Result<DVec3, Error> {
     if size.x <= 0.0 || size.y <= 0.0 || size.z < 0.0 {
-        return Err(reader.error(&format!("size is {size}; sides must be above 0, that along z 0 at least")));
+        return Err(reader.error(&format!("size is {size}; sides must be above 0, that along z 0 or above")));
     }
     Ok((size / spacing).round().max(DVec3::ONE))
 }

@@ -82,7 +82,9 @@ fn build(settings: &Settings) -> Result<State, Error> {
 /// A flat piece, as many spacings large as fit best.
 fn plane(reader: &Reader<'_>, skin: &Skin, size: DVec3) -> Result<Vec<DVec3>, Error> {
     if size.x <= 0.0 || size.y < 0.0 {
-        return Err(reader.error(&format!("size is {size}; a plane is above 0 along x, and 0 at least along y")));
+        return Err(
+            reader.error(&format!("size is {size}; a plane has a size above 0 along x, and of 0 or above along y"))
+        );
     }
     let normal = reader.direction("normal")?;
     let level = DVec3::Z.cross(normal).try_normalize().unwrap_or(DVec3::X);
@@ -145,9 +147,8 @@ fn sphere(reader: &Reader<'_>, skin: &Skin, side: f64, size: DVec3) -> Result<Ve
     let uneven = (size - size.x).abs();
     let round = size.x > 0.0 && uneven.y == 0.0 && (flat || uneven.z == 0.0);
     if !round {
-        return Err(
-            reader.error(&format!("size is {size}; a sphere is as large along all axes, or 0 along z for a circle"))
-        );
+        return Err(reader
+            .error(&format!("size is {size}; a sphere has the same size along all axes, or 0 along z for a circle")));
     }
     let radii = skin.depths().map(|depth| 0.5 * size.x + side * depth);
     // A shape smaller than the thickness of its walls is one particle.

@@ -35,14 +35,14 @@ impl<B: Backend> Simulation<B> {
     /// [`Error::TooManyNeighbors`], [`Error::CutShort`], [`Error::Endless`], [`Error::TooShort`], or what reading says.
     pub async fn check(&mut self) -> Result<(), Error> {
         let mut alarm = self.alarm().await?;
-        let [.., cut, endless] = alarm;
+        let [.., cut, endless, _] = alarm;
         // Sums that lack neighbours lead to numbers that are not finite, and to runaway speeds.
         if cut == u32::MAX && endless == u32::MAX && self.settle().await? {
             alarm = self.alarm().await?;
         }
         let [done, .., fast, particle] = [alarm[0], alarm[1], alarm[3], alarm[4]];
         // A runaway leads to numbers that are not finite in the end: the first cause is reported.
-        let [.., cut, endless] = alarm;
+        let [.., cut, endless, _] = alarm;
         if fast != u32::MAX && fast <= done && cut == u32::MAX && endless == u32::MAX {
             let particle = self.named(particle);
             return Err(Error::Runaway { particle, step: u64::from(fast.saturating_sub(1)) });
@@ -55,9 +55,34 @@ impl<B: Backend> Simulation<B> {
         let words = u32::view(&alarm).and_then(|words| <[u32; ALARM_WORDS]>::try_from(words.as_slice()).ok());
         Ok(words.unwrap_or(QUIET))
     }
+    /// Evaluates the laws of the present state once more, for what is measured then; [`Simulation::end_measurement`] has to follow.
+    pub(super) async fn begin_measurement(&mut self) -> Result<(), Error> {
+        let alarm = self.alarm().await?;
+        self.sound(&alarm)?;
+        self.repeatable(None)?;
+        // The start plan computes the masses of a fluid's walls and its rest density.
+        if self.begins {
+            self.begin()?;
+        }
+        self.backend.run(&self.measure.0, 1)
+    }
+    /// Restores what the evaluation of a measurement overwrote. The alarm of that evaluation; `None` where a list was too short for it, so that
+    /// the measurement has to be repeated.
+    pub(super) async fn end_measurement(&mut self) -> Result<Option<[u32; ALARM_WORDS]>, Error> {
+        let alarm = self.alarm().await?;
+        self.backend.run(&self.measure.1, 1)?;
+        Ok((!self.settle().await?).then_some(alarm))
+    }
     /// Whether laws were evaluated completely, all numbers are finite, and searches have found all particles.
     pub(super) fn sound(&self, alarm: &[u32; ALARM_WORDS]) -> Result<(), Error> {
-        let [done, particle, crowded, .., cut, endless] = *alarm;
+        let [done, particle, crowded, .., cut, endless, folded] = *alarm;
+        if folded != u32::MAX {
+            return Err(Error::Device(format!(
+                "the driver folds compensated sums, so that precision = \"{}\" would keep no more digits than single: choose precision = \
+                 \"single\", another --adapter, or --backend cpu",
+                self.setup.integrator.precision().name()
+            )));
+        }
         let law = |mark: u32| self.marks.get(&mark).cloned().unwrap_or_else(|| "a law".to_owned());
         // A wrong law leads to numbers that are not finite, and to searches that do not end.
         if endless != u32::MAX {

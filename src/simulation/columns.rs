@@ -8,7 +8,8 @@ use super::{Plans, Setup, Simulation};
 use crate::boundary;
 use crate::error::Error;
 use crate::kernel::{
-    ACCELERATION, Array, Backend, Column, Columns, HOME, ID, Kind, LIFE, Name, POSITION, Role, TARGET, VELOCITY, insert,
+    ACCELERATION, Array, Backend, Column, Columns, HOME, ID, Kind, LIFE, LOW_WORDS, Name, POSITION, Role, TARGET,
+    VELOCITY, insert, joined, low_words, remainders,
 };
 use crate::motion::{Held, Hold};
 use crate::state::State;
@@ -31,6 +32,8 @@ pub(super) struct Store {
     columns: Columns,
     /// The buffers of columns that are on the device.
     bound: BTreeSet<Name>,
+    /// The fields of low words that are on the device.
+    low: BTreeSet<&'static str>,
     /// Columns that no plan binds: nothing changes them.
     idle: BTreeMap<Name, Array>,
 }
@@ -42,7 +45,8 @@ impl Store {
         let fields: BTreeSet<String> = plans.all().flat_map(|plan| plan.fields(count).into_keys()).collect();
         let bound = columns.iter().map(|column| column.place.buffer.clone());
         let bound = bound.filter(|buffer| fields.contains(buffer.as_ref())).collect();
-        let mut store = Self { columns, bound, idle: BTreeMap::new() };
+        let low = LOW_WORDS.iter().map(|(_, low)| low.name).filter(|low| fields.contains(*low)).collect();
+        let mut store = Self { columns, bound, low, idle: BTreeMap::new() };
         let given = setup.state.columns().filter(|(column, _)| store.is_state(column) && !store.lies_on_device(column));
         let idle = given.map(|(column, values)| (column.name.clone(), values.clone())).collect();
         store.idle = idle;
@@ -66,9 +70,20 @@ impl Store {
             if let Array::Vec4(elements) = &mut elements {
                 started(setup, buffer, elements, goes_on);
             }
-            backend.write(buffer, &elements)?;
+            self.fill(backend, buffer, 0, &elements)?;
         }
         backend.write(ACCELERATION.name, &Array::Vec4(vec![DVec4::ZERO; count]))
+    }
+    /// Fills a buffer from one of its elements on, and its low words, if it has any. References keep all digits in the high words.
+    pub fn fill<B: Backend>(&self, backend: &mut B, buffer: &str, first: usize, elements: &Array) -> Result<(), Error> {
+        backend.write_at(buffer, first, elements)?;
+        let Some(low) = self.low_of(buffer) else { return Ok(()) };
+        let exact = backend.host().is_some();
+        backend.write_at(low, first, &if exact { elements.zeros(elements.len()) } else { remainders(elements) })
+    }
+    /// The field of the low words of a buffer, if it has any.
+    fn low_of(&self, buffer: &str) -> Option<&'static str> {
+        low_words(buffer).filter(|low| self.low.contains(low))
     }
     /// Fills the positions of fixed particles at time 0, in their order, where a plan requires them, and returns their number.
     pub fn anchor<B: Backend>(backend: &mut B, setup: &Setup) -> Result<usize, Error> {
@@ -212,7 +227,7 @@ impl<B: Backend> Simulation<B> {
             }
             _ => values.clone(),
         };
-        self.backend.write(&buffer, &elements)
+        self.store.fill(&mut self.backend, &buffer, 0, &elements)
     }
     /// The values of rows in use.
     fn of_rows(&self, column: &Column, values: &Array) -> Array {
@@ -225,7 +240,11 @@ impl<B: Backend> Simulation<B> {
         let missing = || Error::Device(format!("there is no field `{buffer}`"));
         let like = self.store.columns.element(buffer).ok_or_else(missing)?;
         let len = self.store.columns.len_of(buffer, self.count() as usize).ok_or_else(missing)?;
-        self.backend.read(buffer, &like, len).await
+        let elements = self.backend.read(buffer, &like, len).await?;
+        match self.store.low_of(buffer) {
+            Some(low) => Ok(joined(elements, &self.backend.read(low, &like, len).await?)),
+            None => Ok(elements),
+        }
     }
     /// Reads all columns that a state keeps, and others of these names.
     pub(super) async fn gathered(&mut self, others: &[&str]) -> Result<State, Error> {

@@ -10,7 +10,7 @@ use glam::DVec4;
 use super::Simulation;
 use crate::component::{earlier, numbered};
 use crate::error::Error;
-use crate::forces::{Component, Law, Over};
+use crate::forces::{Component, Law};
 use crate::kernel::{Array, Backend, Element, ListShape, Plan};
 use crate::neighbors::{HISTORY, LIST, LIST_ORIGIN, LIST_STATE, LIST_STATE_WORDS, List, NONE};
 use crate::state::{KEPT_PAIR_WORDS, KEPT_PAIRS, State};
@@ -32,8 +32,7 @@ pub(super) fn once(forces: &[Box<dyn Component>], step: &Plan) -> Result<(), Err
         let name = numbered(force.name(), earlier(forces, place));
         refuse(&name, step.steps().filter(|kernel| kernel.name == name).count())?;
     }
-    let remembers = |law: &Law| matches!(law.over, Over::List { slots, .. } if slots > 0);
-    for law in forces.iter().flat_map(|force| force.laws()).filter(remembers) {
+    for law in forces.iter().flat_map(|force| force.laws()).filter(Law::remembers) {
         let evaluations = step.steps().filter(|kernel| kernel.name == law.name).count();
         refuse(&law.name, evaluations)?;
     }

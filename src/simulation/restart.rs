@@ -2,7 +2,7 @@
 //!
 //! Columns hold the state of particles. In addition, a step saves for the next one: the accelerations of its first kick, which are those of
 //! half-kicked velocities and cannot be evaluated again; rates of other columns; an adaptive clock, and the dt criteria of forces; the
-//! initial positions of fixed particles; broken springs; the maximum speeds of the last steps, by which an alarm detects a runaway. A state
+//! initial positions of fixed particles; broken springs; the low words of positions and velocities, whose last digits a sum in f64 may lack; the maximum speeds of the last steps, by which an alarm detects a runaway. A state
 //! carries these. They are valid for the step that wrote them: under other forces, with steps of another length or another integrator, or
 //! on another kind of device, accelerations are evaluated again.
 
@@ -13,8 +13,8 @@ use crate::boundary;
 use crate::error::Error;
 use crate::integrators::{SOLVE_REPORT, kept_rates};
 use crate::kernel::{
-    ALARM, Array, Backend, Column, Columns, HOME, ID, LARGEST_CRITERION, LIFE, Plan, QUIET, Role, STEP_CLOCK,
-    STEP_CLOCK_WORDS, STEP_CRITERIA, TICKS, World, extent, split,
+    ALARM, Array, Backend, Column, Columns, HOME, ID, LARGEST_CRITERION, LIFE, LOW_WORDS, Plan, QUIET, Role,
+    STEP_CLOCK, STEP_CLOCK_WORDS, STEP_CRITERIA, TICKS, World, extent, split,
 };
 use crate::life::Life;
 use crate::links::Links;
@@ -64,6 +64,7 @@ pub(super) fn carried(plans: &Plans, columns: &Columns, count: u32) -> Vec<Carri
     let words = [ALARM.name, STEP_CLOCK.name, SOLVE_REPORT, DFSPH_REPORT];
     all.extend(words.map(|name| one(name, &whole, false)));
     all.push(one(DFSPH_ERRORS, &real, false));
+    all.extend(LOW_WORDS.iter().map(|(_, low)| Carried { each: 1, ..one(low.name, &four, false) }));
     all.push(Carried { each: 1, ..one(STEP_CRITERIA.name, &four, true) });
     all.push(one(LARGEST_CRITERION.name, &four, true));
     all.retain(|one| fields.contains_key(&one.field));
@@ -176,6 +177,11 @@ fn mark(step: u64, state: &State) -> Vec<f64> {
 /// A hash of the columns of a state, in any order, by their values as a device holds them. Columns that files leave out do not count: sizes
 /// and species that are all 0, and life where all are active.
 fn of_columns(state: &State) -> u64 {
+    // Where positions and velocities have two words, all digits count.
+    let exact = |name: &str| {
+        let low = LOW_WORDS.iter().find(|(high, _)| high.name == name).map(|(_, low)| format!("{KEPT}{}", low.name));
+        low.is_some_and(|low| state.kept.get(&low).is_some())
+    };
     let counts = |column: &Column| match column.name.as_ref() {
         "size" => state.size().iter().any(|size| *size != 0.0),
         "species" => state.species().iter().any(|species| *species != 0),
@@ -186,8 +192,12 @@ fn of_columns(state: &State) -> u64 {
     let one = |(column, values): (&Column, &Array)| {
         let mut print = Print::new();
         print.add(column.name.as_bytes());
+        let exact = exact(&column.name);
         #[expect(clippy::cast_possible_truncation, reason = "as the device holds it")]
-        numbers(values).iter().for_each(|x| print.add(&(*x as f32).to_bits().to_le_bytes()));
+        let add = |x: &f64| {
+            if exact { print.add(&x.to_bits().to_le_bytes()) } else { print.add(&(*x as f32).to_bits().to_le_bytes()) }
+        };
+        numbers(values).iter().for_each(add);
         print.0
     };
     state.columns().filter(|(column, _)| counts(column)).map(one).fold(0, u64::wrapping_add)

@@ -14,7 +14,7 @@ use crate::settings::nearest;
 use crate::visit::{self, LINK};
 
 /// The remedy where a setting requires another plan.
-const ANEW: &str = "make another simulation of it: a setup with the state of `snapshot()`";
+const ANEW: &str = "make another simulation, of a setup with the state of `snapshot()`";
 
 impl<B: Backend> Simulation<B> {
     /// Changes a setting of a force, an obstacle or a solid, a parameter of a user's law, or one of its tables, from the next step on.
@@ -69,7 +69,7 @@ impl<B: Backend> Simulation<B> {
         names.iter().position(|known| known == name).ok_or_else(|| {
             let known: Vec<&str> = names.iter().map(String::as_str).filter(|name| !name.is_empty()).collect();
             let there = if known.is_empty() { "none".to_owned() } else { known.join(", ") };
-            Error::Scene(format!("no force is called `{name}`{}; there are {there}", meant(name, &known)))
+            Error::Scene(format!("no force is called `{name}`{}; known are {there}", meant(name, &known)))
         })
     }
     /// Continues with other numbers in the same kernels.

@@ -9,7 +9,7 @@ use crate::boundary;
 use crate::component;
 use crate::error::Error;
 use crate::forces::{Component, Over, Problem, Stage};
-use crate::integrators::{Integrator, Leapfrog, Step};
+use crate::integrators::{self, Integrator, Leapfrog, Step};
 use crate::kernel::{Bounds, Column, Columns, ListShape, Machine, Plan, Solver, claims};
 use crate::life;
 use crate::motion::{self, Hold};
@@ -87,6 +87,7 @@ impl Setup {
         self.weigh(problem)?;
         let list = problem.list;
         let mut start = Step::new(&self.forces, problem.clone());
+        start.prove();
         start.enclose();
         start.lead();
         start.populate();
@@ -102,6 +103,7 @@ impl Setup {
         let measure = Step::measurement(&self.forces, problem.clone())?;
         let keep = Step::keeping(&self.forces, problem.clone())?;
         let plans = Plans { start: start.begun()?, step: step.done()?, measure, keep, time, list };
+        integrators::check_precision(self.integrator.as_ref(), [&plans.start, &plans.step])?;
         claims(&plans.all(), &columns)?;
         pair_history::once(&self.forces, &plans.step)?;
         unwritten::check(&plans, &columns)?;
@@ -144,6 +146,17 @@ impl Setup {
             if first == second { format!("{first} is there twice") } else { format!("{first} and {second} are there") };
         Err(Error::Scene(format!("{text}, and each would regulate the same particles: remove one of them")))
     }
+    /// Refuses an integrator that begins steps with forces of other positions, where a component needs those of the present ones.
+    fn has_forces_in_time(&self) -> Result<(), Error> {
+        match self.forces.iter().find(|force| force.properties().needs_forces) {
+            Some(force) if !self.integrator.ends_with_forces() => Err(Error::Scene(format!(
+                "{} needs the forces of the positions at which a step begins, and {} does not have them: choose leapfrog or beeman",
+                force.name(),
+                self.integrator.name()
+            ))),
+            _ => Ok(()),
+        }
+    }
     /// Refuses a tree whose nodes do not fit single precision.
     fn weigh(&self, problem: &Problem) -> Result<(), Error> {
         let walks = self.forces.iter().flat_map(|force| force.laws()).any(|law| law.tree(problem).is_some());
@@ -178,6 +191,7 @@ impl Setup {
             .breaking(self.breaks())
             .solved(self.solver)
             .adapted(self.integrator.adaptive_step())
+            .precise(self.integrator.precision())
             .of_columns(self.columns()?);
         lists::counted(self, problem)
     }
@@ -319,15 +333,17 @@ impl Setup {
         let (position, velocity, mass, size) = (state.position(), state.velocity(), state.mass(), state.size());
         let count = position.len();
         let fits = |x: f64| x.abs() <= f64::from(f32::MAX);
-        let bad = (0..count).find(|i| {
-            let vectors = [position[*i], velocity[*i]];
-            let (mass, size) = (mass[*i], size[*i]);
-            let good = vectors.iter().all(|v| v.to_array().into_iter().all(fits)) && fits(mass) && fits(size);
-            !(good && mass >= 0.0 && size >= 0.0)
+        let bad = (0..count).find_map(|i| {
+            let vectors = [("position", position[i]), ("velocity", velocity[i])].into_iter();
+            let mut vectors = vectors.filter(|(_, v)| !v.to_array().into_iter().all(fits));
+            let mut numbers =
+                [("mass", mass[i]), ("size", size[i])].into_iter().filter(|(_, x)| !(fits(*x) && *x >= 0.0));
+            let vector = vectors.next().map(|(what, v)| format!("particle {i} has the {what} {:?}", v.to_array()));
+            vector.or_else(|| numbers.next().map(|(what, x)| format!("particle {i} has the {what} {x:?}")))
         });
         if let Some(bad) = bad {
             return Err(Error::Scene(format!(
-                "particle {bad} has a number that is NaN, infinite or beyond single precision, or a negative mass or size"
+                "{bad}: numbers must be finite and within single precision, and a mass or a size must not be negative"
             )));
         }
         self.complete()?;
@@ -359,8 +375,7 @@ impl Setup {
         let (count, life) = (position.len(), &state.life());
         let single = f64::from(f32::MIN_POSITIVE)..=f64::from(f32::MAX);
         if !single.contains(&self.dt) {
-            let text =
-                format!("dt is {}: it must be above 0, and no smaller or larger than single precision holds", self.dt);
+            let text = format!("dt is {}: it must be from 1.2e-38 to 3.4e38, the range of single precision", self.dt);
             return Err(Error::Scene(text));
         }
         self.particles()?;
@@ -381,6 +396,7 @@ impl Setup {
         motion::check(held, motions, count, self.bounds.dimensions, self.dt)?;
         life::check((life, births, drains), held, count, self.bounds.dimensions)?;
         self.has_one_thermostat()?;
+        self.has_forces_in_time()?;
         inactive::serves(&self.state, &self.forces, self.integrator.as_ref())?;
         if !links.rods.is_empty() && !self.forces.iter().any(|force| force.properties().keeps_rods) {
             let text = format!(

@@ -83,7 +83,10 @@ impl<B: Backend> Simulation<B> {
                 }
                 Some(row) => rows.push(row),
                 None if *id < self.rows.next() => return refuse(format!("particle {id} has been removed already")),
-                None => return refuse(format!("there is no particle {id}: ids go to {}", self.rows.next())),
+                None => {
+                    let last = self.rows.next().saturating_sub(1);
+                    return refuse(format!("there is no particle {id}: ids go from 0 to {last}"));
+                }
             }
         }
         if rows.is_empty() {
@@ -96,8 +99,8 @@ impl<B: Backend> Simulation<B> {
         let four = |v: DVec4| Array::Vec4(vec![v]);
         for row in &rows {
             let place = *row as usize;
-            self.backend.write_at(POSITION.name, place, &four(parked(self.extent, *row).extend(0.0)))?;
-            self.backend.write_at(VELOCITY.name, place, &four(DVec4::ZERO))?;
+            self.store.fill(&mut self.backend, POSITION.name, place, &four(parked(self.extent, *row).extend(0.0)))?;
+            self.store.fill(&mut self.backend, VELOCITY.name, place, &four(DVec4::ZERO))?;
             self.backend.write_at(ACCELERATION.name, place, &four(DVec4::ZERO))?;
             self.backend.write_at(LIFE.name, place, &Array::Uint(vec![Life::Removed.word()]))?;
         }
@@ -207,7 +210,8 @@ impl<B: Backend> Simulation<B> {
                 end += 1;
             }
             let some: Vec<usize> = (first..end).collect();
-            self.backend.write_at(field, each * rows[first] as usize, &elements.picked(&some, each))?;
+            let elements = elements.picked(&some, each);
+            self.store.fill(&mut self.backend, field, each * rows[first] as usize, &elements)?;
             first = end;
         }
         Ok(())

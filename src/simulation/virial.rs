@@ -52,19 +52,11 @@ impl<B: Backend> Simulation<B> {
         let program = self.backend.compile(&plan)?;
         self.settle().await?;
         let (values, alarm) = loop {
-            let alarm = self.alarm().await?;
-            self.sound(&alarm)?;
-            self.repeatable(None)?;
-            if self.begins {
-                self.begin()?;
-            }
-            self.backend.run(&self.measure.0, 1)?;
+            self.begin_measurement().await?;
             self.backend.run(&program, 1)?;
             let like = Array::Vec4(Vec::new());
             let values = self.backend.read(VIRIAL.name, &like, 2 * self.rows.used() as usize).await;
-            let alarm = self.alarm().await?;
-            self.backend.run(&self.measure.1, 1)?;
-            if !self.settle().await? {
+            if let Some(alarm) = self.end_measurement().await? {
                 break (values, alarm);
             }
         };

@@ -170,7 +170,7 @@ impl Start {
         if let Some((a, b, r)) = self.same {
             return Err(Error::Scene(format!(
                 "particles {a} and {b} of the fluid are {r:.1e} apart, and the spacing is {}: pressure cannot separate particles at \
-                 the same position; do two blocks overlap?",
+                 the same position: move one of them, or the block that it is part of",
                 self.medium.spacing
             )));
         }

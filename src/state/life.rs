@@ -34,6 +34,17 @@ impl State {
     pub fn is_active(&self, id: usize) -> bool {
         self.whole(LIFE.name).and_then(|words| words.get(id)).is_none_or(|word| *word == Life::Active.word())
     }
+    /// Of each particle, whether it is fixed or kinematic.
+    #[must_use]
+    pub fn fixed(&self) -> Vec<bool> {
+        let mut fixed = vec![false; self.len()];
+        for one in &self.held {
+            if let Some(fixed) = fixed.get_mut(one.id as usize) {
+                *fixed = true;
+            }
+        }
+        fixed
+    }
     /// Whether some particles are inactive at some time.
     #[must_use]
     pub fn has_inactive(&self) -> bool {

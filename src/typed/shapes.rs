@@ -322,6 +322,27 @@ typed! {
         /// The radius at which particles are drawn \[length\]; 0: chosen by the picture.
         particle_size: f64,
     }
+    /// Solid spheres that do not touch, on a disordered lattice in a box or a cylinder, with their radii and moments of inertia.
+    Grains "grains" grains(size: DVec3, radius: f64) {
+        /// The sides of the box; of a cylinder x and y are its diameter, and z is its height \[length\].
+        size: DVec3,
+        /// The mean radius \[length\].
+        radius: f64,
+        /// Radii are uniform between 1 − this and 1 + this times the mean, below 1.
+        spread: f64,
+        /// The density of the material \[mass / length³\].
+        density: f64,
+        /// The least distance of the largest spheres in the lattice, in their radii; within it they are displaced.
+        gap: f64,
+        /// Whether they fill the cylinder along z in the box.
+        cylinder: bool,
+        /// Seed of the random numbers.
+        seed: u64,
+        /// The position of the centre \[length\].
+        center: DVec3,
+        /// The velocity of the whole \[length / time\].
+        velocity: DVec3,
+    }
     /// Particles in a row, each connected to the next by springs, ropes or rods: pendulums, strings, beams.
     Chain "chain" chain(count: u32) {
         /// Number of particles, 2 or above.

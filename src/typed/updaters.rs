@@ -15,6 +15,8 @@ typed! {
         time: f64,
         /// Constrained degrees of freedom: as many as dimensions where forces conserve the total momentum, and it is 0.
         removed: u64,
+        /// Variables of the system, each of which regulates the one before it; 1: the thermostat of Nosé and Hoover alone.
+        chain: u32,
     }
     /// A heat bath with friction and noise on every particle (Langevin 1908, Bussi & Parrinello 2007).
     Langevin "langevin" langevin(temperature: f64) {
@@ -53,6 +55,15 @@ typed! {
         drift: bool,
         /// Seed of the random numbers, counted by id and step.
         seed: u64,
+    }
+    /// Particles move to a minimum of the potential energy and rest there: FIRE (Bitzek et al. 2006).
+    Minimize "minimize" minimize(tolerance: f64, largest_move: f64) {
+        /// The largest force on a particle at which all rest \[force\].
+        tolerance: f64,
+        /// The longest way of a particle in a step, such as a tenth of a diameter \[length\].
+        largest_move: f64,
+        /// The longest step, in units of dt.
+        longest: f64,
     }
     /// Springs that are stretched too far break permanently.
     Tear "tear" tear() {

@@ -3,6 +3,7 @@
 use super::{Component, Problem, Properties, Stage};
 use crate::component::bath::{Bath, TEMPERATURE, normals};
 use crate::component::keys::SEED;
+use crate::component::thermostat::decayed;
 use crate::error::Error;
 use crate::kernel::Plan;
 use crate::settings::{Key, Kind, Settings, Value};
@@ -34,7 +35,7 @@ impl Andersen {
 
 impl Component for Andersen {
     fn properties(&self) -> Properties {
-        let why = "andersen has a probability of collisions of one step, whose length is fixed";
+        let why = "andersen has a probability of collisions for steps of one length";
         Properties { fixed_step: Some(why), constrains: true, thermostat: true, ..Properties::default() }
     }
     fn stage(&self, stage: Stage, plan: &mut Plan, problem: &Problem) -> Result<(), Error> {
@@ -43,7 +44,7 @@ impl Component for Andersen {
             let file = crate::shader!("updaters/andersen.wgsl");
             plan.add(bath.kernel("andersen", file, ("RATE", self.rate), problem, move |me, x, host| {
                 let world = host.world();
-                if fraction(bath.words(me, !world.step)[0]) >= -(-x).exp_m1() {
+                if fraction(bath.words(me, !world.step)[0]) >= decayed(x) {
                     return me.velocity;
                 }
                 let n = normals(bath.words(me, world.step), world.bounds.dimensions);

@@ -4,27 +4,19 @@ use std::sync::Arc;
 
 use glam::DVec4;
 
-use super::nose_hoover::{CHANGE, TOTAL, measured, scale, serves};
 use super::{Component, Problem, Properties, Stage};
+use crate::component::bath::TEMPERATURE;
+use crate::component::thermostat::{CHANGE, HEAT, REMOVED, TOTAL, decayed, heat, measured, scale, serves};
 use crate::error::Error;
-use crate::kernel::{Column, Field, Host, Kernel, Kind as Element, Name, Plan, Shader, Shape};
+use crate::kernel::{Column, Host, Kernel, Name, Plan, Shader};
 use crate::settings::{Key, Kind, Settings, Value};
 
 /// The keys in a scene.
 pub const KEYS: &[Key] = &[
-    crate::component::bath::TEMPERATURE,
+    TEMPERATURE,
     Key::new("time", Kind::Positive, Value::Number(1.0), "τ, the relaxation time of the temperature [time]"),
-    super::nose_hoover::REMOVED,
+    REMOVED,
 ];
-
-/// What it has given to particles.
-pub(super) const HEAT: Field<f32> = Field::new("thermostat_heat");
-
-/// Its column.
-pub(super) fn heat() -> Column {
-    let about = "what the thermostat has given to particles";
-    Column::new(HEAT.name, Element::Scalar, "energy", about).shaped(Shape::System(1))
-}
 
 /// `berendsen`: at the end of each step all velocities are scaled by one factor, so that the temperature relaxes to the given one within τ
 /// (Berendsen et al., J. Chem. Phys. 81, 3684, 1984). For equilibration only: the kinetic energy hardly fluctuates, so that no ensemble is
@@ -58,7 +50,7 @@ impl Berendsen {
             let freedoms = dimensions * count - removed;
             change[0] = 0.0;
             if freedoms > 0.0 && twice > 0.0 {
-                let part = -(-host.world().dt / time).exp_m1() * (freedoms * temperature / twice - 1.0);
+                let part = decayed(host.world().dt / time) * (freedoms * temperature / twice - 1.0);
                 change[0] = part / (1.0 + (1.0 + part).sqrt());
                 heat[0] += 0.5 * twice * part;
             }

@@ -4,11 +4,10 @@ use std::sync::Arc;
 
 use glam::{DVec4, Vec4};
 
-use super::berendsen::{HEAT, heat};
-use super::nose_hoover::{CHANGE, TOTAL, measured, scale, serves};
 use super::{Component, Problem, Properties, Stage};
 use crate::component::bath::{Bath, TEMPERATURE, normals};
 use crate::component::keys::SEED;
+use crate::component::thermostat::{CHANGE, HEAT, TOTAL, decayed, heat, measured, scale, serves};
 use crate::error::Error;
 use crate::kernel::{Column, Field, Host, Kernel, Name, Pass, Plan, Shader};
 use crate::primitives::{Items, Operation, reduce};
@@ -104,7 +103,7 @@ impl Csvr {
                 if removed > 0.0 {
                     squares -= noise.truncate().length_squared() / noise.w;
                 }
-                let lost = -(-host.world().dt / time).exp_m1();
+                let lost = decayed(host.world().dt / time);
                 let along = (lost * temperature).sqrt() * work / twice;
                 let part = lost * (temperature * squares / twice - 1.0) + 2.0 * (1.0 - lost).sqrt() * along;
                 let factor = (1.0 + part).max(0.0).sqrt();
@@ -127,7 +126,7 @@ impl Component for Csvr {
         vec![heat()]
     }
     fn properties(&self) -> Properties {
-        let why = "csvr has noise of one step, whose length is fixed";
+        let why = "csvr draws its noise for steps of one length";
         Properties { fixed_step: Some(why), constrains: true, thermostat: true, ..Properties::default() }
     }
     fn stage(&self, stage: Stage, plan: &mut Plan, problem: &Problem) -> Result<(), Error> {

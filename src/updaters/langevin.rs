@@ -3,6 +3,7 @@
 use super::{Component, Problem, Properties, Stage};
 use crate::component::bath::{Bath, TEMPERATURE, normals};
 use crate::component::keys::SEED;
+use crate::component::thermostat::decayed;
 use crate::error::Error;
 use crate::kernel::Plan;
 use crate::settings::{Key, Kind, Settings, Value};
@@ -33,7 +34,7 @@ impl Langevin {
 
 impl Component for Langevin {
     fn properties(&self) -> Properties {
-        let why = "langevin has noise of one step, whose length is fixed";
+        let why = "langevin draws its noise for steps of one length";
         Properties { fixed_step: Some(why), constrains: true, thermostat: true, ..Properties::default() }
     }
     fn stage(&self, stage: Stage, plan: &mut Plan, problem: &Problem) -> Result<(), Error> {
@@ -42,7 +43,7 @@ impl Component for Langevin {
             let file = crate::shader!("updaters/langevin.wgsl");
             plan.add(bath.kernel("langevin", file, ("FRICTION", self.friction), problem, move |me, x, host| {
                 let world = host.world();
-                let noise = (-(-2.0 * x).exp_m1() * bath.temperature / me.mass).sqrt();
+                let noise = (decayed(2.0 * x) * bath.temperature / me.mass).sqrt();
                 (-x).exp() * me.velocity + noise * normals(bath.words(me, world.step), world.bounds.dimensions)
             })?);
         }

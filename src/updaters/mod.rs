@@ -11,5 +11,6 @@ components! {
     andersen: Andersen, "a heat bath with which particles collide at random (Andersen 1980)";
     berendsen: Berendsen, "the temperature relaxes to a given one; for equilibration only (Berendsen et al. 1984)";
     csvr: Csvr, "a thermostat: the kinetic energy relaxes and fluctuates as it does in a heat bath, by one random factor for all velocities (Bussi, Donadio & Parrinello 2007)";
+    minimize: Minimize, "particles move to a minimum of the potential energy and rest there: FIRE (Bitzek et al. 2006)";
     tear: Tear, "springs that are stretched too far break permanently";
 }

@@ -1,6 +1,7 @@
 //! The files that a law is joined with.
 
 use super::{Law, Over};
+use crate::error::Error;
 use crate::kernel::{Problem, Source};
 
 /// Files that are joined with a law that calls a function of theirs and does not define it.
@@ -17,7 +18,17 @@ const ON_CALL: [(&str, Source); 10] = [
     ("touch", crate::shader!("grains/touch.wgsl")),
 ];
 
+/// The function that adds two sums of a law.
+pub(super) const MERGE: &str = "fn merge(total: ptr<function, Sum>, part: Sum)";
+
 impl Law {
+    /// Checks that a law with a `Sum` of its own adds two of them, for visits that evaluate parts of a sum.
+    pub(super) fn requires_merge(&self) -> Result<(), Error> {
+        if self.wgsl.law && self.wgsl.says(&["struct", "Sum", "{"]) {
+            self.requires(&[("merge", MERGE)])?;
+        }
+        Ok(())
+    }
     /// The file that stores its result.
     pub(super) fn result(&self) -> Source {
         match (self.accelerates(), self.over) {
@@ -30,11 +41,28 @@ impl Law {
     pub(super) fn choice(&self) -> Option<Source> {
         (!self.says(&["fn", "acts_on", "("])).then_some(crate::shader!("visit/acts_on_all.wgsl"))
     }
+    /// Whether its file has the energy of a pair, from which its force follows.
+    pub(super) fn is_potential(&self) -> bool {
+        self.wgsl.says(&["fn", "energy", "("]) && !self.says(&["fn", "gather", "("])
+    }
+    /// The files with its sum over pairs, unless its own has one: that of a pair potential, or one of accelerations.
+    pub(super) fn sums(&self) -> Vec<Source> {
+        let mut files = Vec::new();
+        if self.is_potential() {
+            files.push(crate::shader!("visit/potential.wgsl"));
+            if !self.wgsl.says(&["fn", "finish", "("]) {
+                files.push(crate::shader!("visit/potential_finish.wgsl"));
+            }
+        } else if !self.says(&["struct", "Sum", "{"]) {
+            files.push(crate::shader!("visit/sum.wgsl"));
+        }
+        files
+    }
     /// The law's own file and those that it relies on: a sum of accelerations, unless it has one, and the functions that it calls.
     pub(super) fn files(&self, problem: &Problem) -> Vec<Source> {
         let mut files = vec![self.turns()];
-        if self.over != Over::Each && !self.says(&["struct", "Sum", "{"]) {
-            files.push(crate::shader!("visit/sum.wgsl"));
+        if self.over != Over::Each {
+            files.extend(self.sums());
         }
         for (function, file) in ON_CALL {
             let called = self.wgsl.says(&[function, "("]) && !self.wgsl.says(&["fn", function, "("]);

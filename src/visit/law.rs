@@ -95,6 +95,11 @@ impl Law {
             virial: None,
         }
     }
+    /// Whether it keeps history of pairs.
+    #[must_use]
+    pub fn remembers(&self) -> bool {
+        matches!(self.over, Over::List { slots: 1.., .. })
+    }
     /// A law of each particle alone; `rule(me, world)` returns acceleration and potential per unit mass.
     pub fn each(
         name: &str,
@@ -315,7 +320,7 @@ impl Law {
     pub(super) fn uniforms(&self, shader: &Shader) -> Result<Vec<(&'static str, Vec<u8>)>, Error> {
         let values: Vec<_> = self.params.iter().map(|(name, value)| (name.as_str(), *value)).collect();
         match shader.reflection().binding("params") {
-            Some(binding) => Ok(vec![("params", binding.packed.pack(&self.name, &values)?)]),
+            Some(binding) => Ok(vec![("params", binding.packed.pack(&format!("the law `{}`", self.name), &values)?)]),
             None if values.is_empty() => Ok(Vec::new()),
             None => Err(Error::Scene(format!(
                 "`{}` is given parameters, but {} uses no `@group(3) @binding(0) var<uniform> params: Params`",
@@ -343,12 +348,17 @@ impl Law {
         if self.search.is_some() || !self.beside.is_empty() {
             return Ok(());
         }
+        if self.is_potential() {
+            let energy = "fn energy(me: Particle, you: Particle, distance: f32, inverse: f32) -> Energy";
+            self.requires(&[("energy", energy)])?;
+            return self.agrees("fn acts_on(me: Particle) -> bool");
+        }
         self.requires(&[
             ("gather", "fn gather(me: Particle, you: Particle, r: vec3f, sum: ptr<function, Sum>)"),
             self.finish(),
         ])?;
         self.agrees("fn acts_on(me: Particle) -> bool")?;
-        self.agrees("fn merge(total: ptr<function, Sum>, part: Sum)")
+        self.agrees(super::files::MERGE)
     }
     /// The tables that its WGSL binds, of pairs of species and of data.
     pub(super) fn bind_tables(&self, kernel: &mut Kernel, problem: &Problem) -> Result<(), Error> {
@@ -458,7 +468,7 @@ impl Law {
         for (name, signature) in functions {
             if !self.wgsl.says(&["fn", name, "("]) {
                 let message = format!(
-                    "{}: a law over \"{}\" has `{signature}`, and this file has none",
+                    "{}: a law over \"{}\" requires `{signature}`, and this file has none",
                     self.wgsl.file,
                     self.over.name()
                 );

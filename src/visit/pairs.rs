@@ -69,6 +69,7 @@ fn join(visit: Source, law: &Law, problem: &Problem) -> Result<Arc<Shader>, Erro
 pub fn kernel(law: Law, problem: &Problem) -> Result<Kernel, Error> {
     let (count, machine) = (problem.capacity, &problem.machine);
     law.requires_gather()?;
+    law.requires_merge()?;
     law.over.range().map_or(Ok(()), checked)?;
     let shader = join(variant(machine), &law, problem)?;
     let reflection = shader.reflection();

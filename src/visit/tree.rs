@@ -113,6 +113,7 @@ fn rounds(tree: &Tree, machine: &Machine) -> u32 {
 
 pub fn kernel(law: Law, tree: &Tree, problem: &Problem) -> Result<Kernel, Error> {
     law.requires_gather()?;
+    law.requires_merge()?;
     let theta = tree.opening.theta();
     if !(theta > LEAST && theta <= 1.0) {
         return Err(Error::Scene(format!(

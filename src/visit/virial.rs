@@ -71,9 +71,7 @@ impl Law {
             Source { file: format!("{} (renamed)", file.file).into(), ..file }
         };
         let mut files = vec![renamed(&self.wgsl)];
-        if !self.wgsl.says(&["struct", "Sum", "{"]) {
-            files.push(renamed(&crate::shader!("visit/sum.wgsl")));
-        }
+        files.extend(self.sums().iter().map(renamed));
         let merges = files.iter().any(|file| file.says(&["fn", "pair_merge", "("]));
         files.push(crate::shader!("visit/virial.wgsl"));
         files.extend(merges.then_some(crate::shader!("visit/virial_merge.wgsl")));

@@ -104,6 +104,7 @@ fn methods() -> String {
         ("Interactions", "interactions"),
         ("Constraints", "constraints"),
         ("Updaters", "updaters"),
+        ("Parts of thermostats", "thermostat"),
         ("Fluids", "sph"),
         ("DFSPH", "sph/dfsph"),
         ("Integrators", "integrators"),
@@ -129,6 +130,7 @@ fn generated_pages_are_those_of_the_registers() {
         ("reference/measures.md", measures()),
         ("reference/scenes.md", table("Built-in scenes", "scene", scenes)),
         ("methods/equations.md", methods()),
+        ("methods/claims.md", claims()),
     ];
     let update = std::env::var_os("UPDATE").is_some();
     for (name, page) in all {
@@ -139,6 +141,26 @@ fn generated_pages_are_those_of_the_registers() {
         let have = std::fs::read_to_string(&path).unwrap_or_default();
         assert!(have == page, "docs/pages/{name} is not what the registers say: UPDATE=1 cargo test --test book");
     }
+}
+
+/// The claims of `motes validate`, as the program lists them.
+fn claims() -> String {
+    let mut command = std::process::Command::new(env!("CARGO_BIN_EXE_motes"));
+    let output = command.args(["validate", "--list", "--json"]).output().expect("it starts");
+    let value: serde_json::Value = serde_json::from_slice(&output.stdout).expect("a document");
+    let mut page = format!(
+        "# Claims that the command checks\n\n{GENERATED}\n`motes validate` runs these scenes on this machine and compares a number of each with the known one; `--all` adds the long ones,\n\
+         `--controls` runs each once more with a value by which it has to fail, `-o FOLDER` writes this table with what was measured.\n\n\
+         | claim | set-up | quantity | known value | limit | source |\n|---|---|---|---|---|---|\n"
+    );
+    for claim in value["claims"].as_array().expect("a list") {
+        let text = |key: &str| claim[key].as_str().expect("a text").replace('|', "\\|");
+        let long = if claim["long"] == true { " (long)" } else { "" };
+        let [name, about, quantity, because, source] = ["name", "about", "quantity", "because", "source"].map(text);
+        let (known, limit) = (&claim["published"], &claim["tolerance"]);
+        let _ = writeln!(page, "| `{name}`{long} | {about} | {quantity} | {known} | {limit}: {because} | {source} |");
+    }
+    page
 }
 
 /// All pages of the book, with their texts.

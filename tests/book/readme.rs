@@ -23,6 +23,16 @@ fn what_it_shows_is_there_and_what_it_names_exists() {
     );
 }
 
+/// The page's snippet is compiled as documentation of the crate.
+#[test]
+fn its_program_is_that_of_the_book() {
+    let program = |text: &'static str| {
+        let rest = text.split_once("```rust,no_run\n").expect("a program").1;
+        rest.split_once("```").expect("an end").0
+    };
+    assert_eq!(program(README), program(include_str!("../../docs/pages/tutorials/embed.md")));
+}
+
 #[test]
 fn its_scenes_and_its_law_work() {
     let blocks = |language: &str| -> Vec<&str> {

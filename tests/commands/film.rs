@@ -230,3 +230,34 @@ fn ctrl_c_leaves_a_film_of_what_was_done() {
     let (pictures, _) = film(&place.at("out").join("birds_film.png"));
     assert!(pictures.iter().eq(frames.iter().map(|f| rgb(f)).collect::<Vec<_>>().iter()), "{stdout}");
 }
+
+/// The notes are in the corners of frames and of pictures, each with its own time; what is between is as without them.
+#[test]
+fn notes_are_written_in_the_corners() {
+    let place = Place::new(
+        &SCENE
+            .replace("width = 97\nheight = 65", "width = 320\nheight = 200")
+            .replace("formats = []", "formats = [\"png\"]"),
+    );
+    for (out, notes) in [("plain", "false"), ("noted", "true")] {
+        let set = format!("picture.annotate={notes}");
+        let (code, _, err) = place.run(out, "nothing", &["-q", "--set", &set]);
+        assert_eq!(code, 0, "{err}");
+    }
+    let pictures = |out: &str| {
+        [place.frames(out), vec![place.at(out).join("picture_00.png"), place.at(out).join("picture_10.png")]].concat()
+    };
+    let mut changed = Vec::new();
+    for (plain, noted) in pictures("plain").iter().zip(pictures("noted")) {
+        let [plain, noted] = [rgb(plain), rgb(&noted)];
+        let differs: Vec<usize> =
+            (0..320 * 200).filter(|i| plain[3 * i..3 * i + 3] != noted[3 * i..3 * i + 3]).collect();
+        assert!(differs.len() > 100, "{}", differs.len());
+        let middle = differs.iter().filter(|i| (80..120).contains(&(**i / 320)));
+        assert_eq!(middle.count(), 0, "notes are above and below the middle");
+        changed.push(differs);
+    }
+    assert_eq!(changed.len(), 6, "four frames, two pictures");
+    // Of a frame and a picture of the same step the notes are the same, and those of another time are not.
+    assert!(changed[0] != changed[1] && changed[4] != changed[5]);
+}

@@ -146,6 +146,8 @@ fn scenes_scale_by_one_number() {
         "salt",
         "argon",
         "vapour",
+        "pile",
+        "hopper",
         "stiff",
         "spring_chain",
         "poiseuille",

@@ -1,5 +1,7 @@
 //! The command `motes` as a process: exit codes, folders, streams, checkpoints, films.
 
+#[path = "../support/golden.rs"]
+mod golden;
 #[path = "../support/small.rs"]
 mod small;
 #[path = "../support/mod.rs"]
@@ -9,13 +11,16 @@ mod baselines;
 mod bench;
 mod checkpoints;
 mod cli;
+mod components;
 mod convert;
 mod cpu_backend;
 mod far;
 mod film;
 mod json;
+mod messages;
 mod process;
 mod purity;
 mod stiff;
 mod sweep;
 mod tied;
+mod validate;

@@ -33,7 +33,7 @@ const SCENES: &[(&str, &str, &[&str])] = &[
     ("ions", "salt", &[]),
 ];
 
-/// The machines whose variants differ the most: lavapipe, and a discrete GPU.
+/// The machines with the most different variants: lavapipe, and a discrete GPU.
 fn machines() -> [(&'static str, Machine); 2] {
     let (bindable, workgroups) = (128 << 20, 65_535);
     let software = Machine { subgroup: 8, invocations: 256, bindable, workgroups, ..Machine::HOST };

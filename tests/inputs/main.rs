@@ -1,6 +1,10 @@
 //! What is read: scenes, files of particles, shapes; and what is wrong with them.
 
+#[path = "../support/golden.rs"]
+mod golden;
+
 mod formats;
+mod messages;
 mod misnamed;
 mod scenes;
 mod shapes;

@@ -10,7 +10,7 @@ fn known(name: &str, stages: &[Stage]) -> Kernel {
     stage.plan.kernels[0].clone()
 }
 
-/// The watch of machines of both kinds: one whose invocations run one after another, and one whose workgroups run at once.
+/// The watch of machines of both kinds: where invocations run one after another, and where workgroups run at once.
 fn on_both(device: &Device) -> [(&'static str, Kernel); 2] {
     let watch = |name, software| {
         let simulation = moving(device, FEW, Some(Machine { software, ..Machine::HOST }));

@@ -20,9 +20,11 @@ mod laws;
 mod lists;
 mod matter;
 mod memory;
+mod minimum;
 mod neighbors;
 mod open;
 mod pairs;
+mod precision;
 mod primitives;
 mod repeat;
 mod rods;
@@ -153,11 +155,13 @@ fn every_mutant_is_noticed() {
         trees::EQUIVALENT,
         walks::EQUIVALENT,
         adaptive::EQUIVALENT,
+        precision::EQUIVALENT,
         fluids::EQUIVALENT,
         pairs::EQUIVALENT,
         repeat::EQUIVALENT,
         columns::EQUIVALENT,
         matter::EQUIVALENT,
+        minimum::EQUIVALENT,
     ]
     .concat();
     let ledger = Mutex::new(Ledger::new(&equivalents, OPEN));

@@ -6,7 +6,7 @@ use motes::forces::{Component, Problem, Stage as Of};
 use motes::kernel::{Array, Backend, Columns, Kernel, Machine, POSITION, Plan, World};
 use motes::motion::{Held, Hold};
 use motes::settings::{Settings, Value};
-use motes::{Bounds, Gpu, Setup, Simulation, Solver};
+use motes::{Bounds, Gpu, Setup, Side, Simulation, Solver};
 
 use crate::laws::resting;
 use crate::stages::{Device, FEW, Stage, fill, moving, stage};
@@ -40,15 +40,12 @@ pub const EQUIVALENT: &[Equivalent] = &[
         "+",
         "the force of no neighbours is none here",
     ),
-    same("langevin.wgsl", "override TEMPERATURE: f32 = 1.0;", "1.0", "1.5", ALWAYS_SET),
+    same("bath.wgsl", "override TEMPERATURE: f32 = 1.0;", "1.0", "1.5", ALWAYS_SET),
     same("langevin.wgsl", "override FRICTION: f32 = 1.0;", "1.0", "1.5", ALWAYS_SET),
-    same("andersen.wgsl", "override TEMPERATURE: f32 = 1.0;", "1.0", "1.5", ALWAYS_SET),
     same("andersen.wgsl", "override RATE: f32 = 1.0;", "1.0", "1.5", ALWAYS_SET),
-    same("langevin.wgsl", "override SEED_LOW: u32 = 1u;", "1u", "2u", ALWAYS_SET),
-    same("langevin.wgsl", "override SEED_HIGH: u32 = 0u;", "0u", "1u", ALWAYS_SET),
-    same("andersen.wgsl", "override SEED_LOW: u32 = 1u;", "1u", "2u", ALWAYS_SET),
-    same("andersen.wgsl", "override SEED_HIGH: u32 = 0u;", "0u", "1u", ALWAYS_SET),
-    same("andersen.wgsl", "let collides = fraction(", "<", "<=", "no number is exactly the probability"),
+    same("bath.wgsl", "override SEED_LOW: u32 = 1u;", "1u", "2u", ALWAYS_SET),
+    same("bath.wgsl", "override SEED_HIGH: u32 = 0u;", "0u", "1u", ALWAYS_SET),
+    same("andersen.wgsl", "if fraction(words_of", ">=", ">", "no number is exactly the probability"),
     same("normals.wgsl", "let uniform_numbers = ", "0.5", "0.75", "a quarter of 2^-24 is nothing to a logarithm"),
     same("decayed.wgsl", "if x > 0.5", ">", ">=", "both formulas hold there"),
     same("decayed.wgsl", "if x > 0.5", "0.5", "0.75", "both formulas hold between"),
@@ -60,7 +57,16 @@ pub const EQUIVALENT: &[Equivalent] = &[
     same("nose_hoover.wgsl", "override REMOVED: f32 = 0.0;", "0.0", "1.0", ALWAYS_SET),
     same("nose_hoover.wgsl", "override TEMPERATURE: f32 = 1.0;", "1.0", "1.5", ALWAYS_SET),
     same("nose_hoover.wgsl", "override TIME: f32 = 1.0;", "1.0", "1.5", ALWAYS_SET),
-    same("wca.wgsl", "if dot(r, r) < pair.range * pair.range", "<", "<=", EDGE),
+    same(
+        "nose_hoover.wgsl",
+        "{ turn(CHAIN - 1u - n,",
+        "<",
+        "<=",
+        "what is written behind the end of the chain is dropped",
+    ),
+    same("nose_hoover.wgsl", "override CHAIN: u32 = 3u;", "3u", "4u", ALWAYS_SET),
+    same("wca.wgsl", "if distance >= pair.range", ">=", ">", EDGE),
+    same("potential.wgsl", "const SMALLEST: f32", "1e-36", "1.4999999999999999e-36", "any small number serves"),
     same("truncation.wgsl", "if r <= onset", "<=", "<", EDGE),
     same("contact.wgsl", "let touches = overlap > 0.0", ">", ">=", EDGE),
     same("touch.wgsl", "if abs(against) > most {", ">", ">=", "at the limit the torque is the limit"),
@@ -245,17 +251,22 @@ fn walls(device: &Device, stages: &mut Vec<Stage>) {
         ("axis", vector(0.0, 0.0, 2.0)),
     ];
     let swing = [("motion", word("swing")), ("friction", number(0.2))];
+    let open = Bounds::default();
+    // Grains on the other side of the box touch the images of a ball.
+    let periodic = Bounds::new(DVec3::splat(-1.5), DVec3::splat(1.5), Side::Periodic);
     let all = [
-        [&plane[..], &sticky].concat(),
-        [&container[..], &sticky, &swing].concat(),
-        [&container[..], &[("friction", number(0.02))]].concat(),
-        [&block[..], &swing].concat(),
-        ball.to_vec(),
-        capsule.to_vec(),
-        [&cone[..], &swing].concat(),
-        tube.to_vec(),
+        ([&plane[..], &sticky].concat(), open),
+        ([&container[..], &sticky, &swing].concat(), open),
+        ([&container[..], &[("friction", number(0.02))]].concat(), open),
+        ([&block[..], &swing].concat(), open),
+        (ball.to_vec(), open),
+        (capsule.to_vec(), open),
+        ([&cone[..], &swing].concat(), open),
+        (tube.to_vec(), open),
+        ([&plane[..], &swing].concat(), periodic),
+        (vec![("shape", word("sphere")), ("radius", number(0.5)), ("position", vector(1.25, -1.0, 1.5))], periodic),
     ];
-    for more in all {
+    for (more, bounds) in all {
         let given = [
             ("stiffness", number(300.0)),
             ("tangential_stiffness", number(0.3)),
@@ -273,9 +284,9 @@ fn walls(device: &Device, stages: &mut Vec<Stage>) {
         state.motions = vec![choices::swing()];
         let columns = [wall.columns(), wall.own_columns(0)].concat();
         support::columns::give(&mut state, &columns, 7);
-        let radii = (0..FEW).map(|i| 0.4375 + 0.015_625 * (i % 5) as f64).collect();
-        state.set("radius", Array::Float(radii)).expect("radii");
-        let (bounds, solver) = (Bounds::default(), Solver::default());
+        let radius = |i: usize| if i % 16 == 3 { 0.0 } else { 0.4375 + 0.015_625 * (i % 5) as f64 };
+        state.set("radius", Array::Float((0..FEW).map(radius).collect())).expect("radii");
+        let solver = Solver::default();
         let setup =
             Setup { state, forces: vec![wall], integrator: integrator("leapfrog"), dt: 1.0 / 256.0, bounds, solver };
         let machine = simulation_at(device, &setup, 0).backend().machine();
@@ -444,4 +455,5 @@ pub fn all(shared: &Shared, device: &Device, stages: &mut Vec<Stage>) {
     baths(device, stages);
     relaxation(device, stages);
     rescaling(device, stages);
+    crate::minimum::all(device, stages);
 }

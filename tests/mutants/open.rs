@@ -16,6 +16,4 @@ pub const OPEN: &[Open] = &[
     // No stage has a tree with free rows behind the particles; `tests/physics/births/spawn.rs` has.
     open("shaders/visit/tree_nodes.wgsl", 1),
     open("shaders/sph/dfsph/listed.wgsl", 1),
-    // No stage has a wall in a periodic box, or grains of radius 0 in a wall.
-    open("shaders/interactions/contact_wall.wgsl", 3),
 ];

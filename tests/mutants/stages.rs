@@ -208,6 +208,7 @@ pub fn all(shared: &Shared) -> Vec<Stage> {
     integrators(&device, &mut stages);
     crate::repeat::all(&device, &mut stages);
     crate::implicit::all(&device, &mut stages);
+    crate::precision::all(&device, &mut stages);
     alarms::watches(&device, &mut stages);
     alarms::runaways(&device, &mut stages);
     crate::boundary::boundary(&device, &mut stages);

@@ -20,6 +20,7 @@ mod orders;
 mod oscillator;
 mod pairs;
 mod pins;
+mod precision;
 mod questions;
 mod rods;
 mod runaway;

@@ -7,13 +7,16 @@ use motes::{Error, Gpu};
 use crate::support::equivalents::{Equivalent, Ledger, same};
 use crate::support::mutants::{Mutant, mutants};
 
-const EQUIVALENT: &[Equivalent] = &[same(
-    "arithmetic.wgsl",
-    "fn broken(x: f32)",
-    "0x7f800000u",
-    "0x7f800001u",
-    "the NaN that is asked about is above both",
-)];
+const EQUIVALENT: &[Equivalent] = &[
+    same(
+        "arithmetic.wgsl",
+        "fn broken(x: f32)",
+        "0x7f800000u",
+        "0x7f800001u",
+        "the NaN that is asked about is above both",
+    ),
+    same("numbers.wgsl", "answer[1] =", ">", ">=", "twice a number is another number"),
+];
 
 fn asked(gpu: &mut Gpu, questions: &Questions) -> Result<Vec<Finding>, Error> {
     pollster::block_on(examine(gpu, questions))
@@ -38,8 +41,9 @@ fn every_mutant_of_the_self_test_is_a_finding() {
     let mut ledger = Ledger::new(EQUIVALENT, &[]);
     let wrong_loop = |long_loop| Questions { long_loop, ..right.clone() };
     let wrong_sum = |arithmetic| Questions { arithmetic, ..right.clone() };
-    let files: [(&Source, &dyn Fn(Source) -> Questions); 2] =
-        [(&right.long_loop, &wrong_loop), (&right.arithmetic, &wrong_sum)];
+    let wrong_number = |numbers| Questions { numbers, ..right.clone() };
+    let files: [(&Source, &dyn Fn(Source) -> Questions); 3] =
+        [(&right.long_loop, &wrong_loop), (&right.arithmetic, &wrong_sum), (&right.numbers, &wrong_number)];
     for (source, wrong) in files {
         for mutant in mutants(&source.text).iter().filter(|m| telling(&plain, m)) {
             let questions = wrong(Source::theirs(source.file.to_string(), mutant.text.clone()));

@@ -254,6 +254,24 @@ fn puddle() -> Scene {
     scene("fluid_from_above", &settings, state, Trail::default(), &scenery)
 }
 
+/// Balls in a tube and a funnel, which widens upwards, and one that narrows: what is cut open shows its far side.
+fn funnel() -> Scene {
+    let of = |radius, end, half, place| Solid {
+        shape: Shape::Cone { radius, end, half },
+        place,
+        turn: DQuat::from_rotation_x(0.2),
+    };
+    let solids = vec![
+        of(0.3, 0.8, 0.4, DVec3::new(-0.9, 0.1, -0.3)),
+        of(0.8, 0.8, 0.3, DVec3::new(-0.9, 0.0, 0.6)),
+        of(0.9, 0.2, 0.7, DVec3::new(0.9, -0.2, 0.0)),
+    ];
+    let mut state = cloud(60, 0.15);
+    state.position_mut().iter_mut().for_each(|x| *x *= 1.5);
+    let settings = settings(&[("style", "balls"), ("color", "group")], &[]);
+    scene("funnel", &settings, state, Trail::default(), &Scenery { solids, ..Scenery::default() })
+}
+
 /// A picture so high that several layers of a dispatch draw strokes, trails, triangles and lines.
 fn tall() -> Scene {
     let words = [("style", "auto"), ("background", "black"), ("projection", "orthographic")];
@@ -297,6 +315,7 @@ pub fn all() -> Vec<Scene> {
         pool("fluid", &[("background", "day")], &[("foam", 2.2)]),
         pool("fluid_by_speed", &[("background", "night"), ("color", "speed")], &[("extent", 0.8)]),
         puddle(),
+        funnel(),
         tall(),
     ]
 }

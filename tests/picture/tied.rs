@@ -89,6 +89,33 @@ fn a_triangle_as_large_as_the_picture_is_drawn_whole() {
     assert_eq!(lit(&image), 400 * 300);
 }
 
+/// A funnel is as wide as it is at each height, is seen from within, and hides nothing that is in it.
+#[test]
+fn a_funnel_is_cut_open() {
+    let mut particles = State::default();
+    particles.push(DVec3::new(0.0, 0.0, 0.1), DVec3::ZERO, 1.0, 0.15);
+    let side =
+        above().with("eye", Value::Vector(DVec3::NEG_Y)).with("style", word("balls")).with("color", word("group"));
+    let draw = |end: f64| {
+        let shape = Shape::Cone { radius: 0.3, end, half: 0.5 };
+        let funnel = Solid { shape, place: DVec3::ZERO, turn: DQuat::IDENTITY };
+        on_gpu(&particles, &[&picture(&particles, &side, vec![funnel])]).remove(0)
+    };
+    let (funnel, tube) = (draw(0.9), draw(0.3));
+    let at = |image: &Image, x: f64, z: f64| {
+        let place = 400.0 * (150.0 - 100.0 * z).round() + 200.0 + 100.0 * x;
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a pixel")]
+        image.rgba[4 * place as usize..][..3].to_vec()
+    };
+    let dyed = |c: &[u8]| c.iter().max().unwrap() - c.iter().min().unwrap() > 40;
+    let wall = |c: &[u8]| c[0] > 40 && !dyed(c);
+    for image in [&funnel, &tube] {
+        assert!(dyed(&at(image, 0.0, 0.1)) && wall(&at(image, 0.0, 0.4)) && wall(&at(image, 0.25, -0.45)));
+        assert!(at(image, 0.5, -0.45)[0] < 20 && at(image, 0.0, 0.55)[0] < 20);
+    }
+    assert!(wall(&at(&funnel, 0.8, 0.45)) && at(&tube, 0.8, 0.45)[0] < 20);
+}
+
 #[test]
 fn the_nearer_is_in_front_and_bobs_stay_balls_beside_their_rods() {
     let mut particles = State::default();

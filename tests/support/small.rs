@@ -27,6 +27,19 @@ pub const SMALLER: &[(&str, &[&str])] = &[
     ("salt", &["force.0.range=5"]),
     ("argon", &["particles.0.cells=[3, 3, 3]"]),
     ("vapour", &["particles.0.cells=[3, 3, 3]"]),
+    ("pile", FEW_GRAINS.split_at(3).0),
+    ("hopper", FEW_GRAINS),
+];
+
+/// Layers of a few grains.
+const FEW_GRAINS: &[&str] = &[
+    "particles.0.size=[0.04, 0.04, 0.025]",
+    "particles.1.size=[0.04, 0.04, 0.025]",
+    "particles.2.size=[0.04, 0.04, 0.025]",
+    "particles.3.size=[0.04, 0.04, 0.025]",
+    "particles.4.size=[0.04, 0.04, 0.025]",
+    // Of the hopper: grains below are removed at once, so that some have been removed wherever a run is cut in two.
+    "drain.0.position=[0, 0, 0.1]",
 ];
 
 /// The overrides that make a scene small; none where it is small as it is.

@@ -1,4 +1,4 @@
-//! What `motes bench` steps: built-in scenes with values set, in several sizes, and independent particles.
+//! The scenes of `motes bench`: built-in ones with overrides, in several sizes, and independent particles.
 
 use glam::DVec3;
 use motes::forces;
@@ -9,9 +9,9 @@ use motes::{Bounds, Setup, Solver, State, integrators};
 use super::super::args::Topic;
 use super::super::failure::Failure;
 
-/// Each size has so many times the particles of the one before it.
+/// The factor of the number of particles from one size to the next.
 const GROWTH: u32 = 4;
-/// Independent particles of the smallest size.
+/// The number of independent particles of the smallest size.
 const STREAM: u32 = 1_000_000;
 
 /// One measurement: a scene of a size.
@@ -19,11 +19,11 @@ pub struct Case {
     pub topic: &'static str,
     pub scene: &'static str,
     pub changes: Vec<String>,
-    /// Particles, about.
+    /// The approximate number of particles.
     pub count: u32,
 }
 
-/// A scene that comes in sizes: the particles that it has by itself, and what is set for so many of them.
+/// A scene in several sizes: its own number of particles, and the overrides for another number.
 struct Sized {
     topic: &'static str,
     scene: &'static str,
@@ -32,7 +32,7 @@ struct Sized {
     set: fn(u32) -> Vec<String>,
 }
 
-/// All sizes of a topic up to so many particles; only the smallest, if no number is given.
+/// All sizes of a topic up to a number of particles; the smallest size if there is no number.
 pub fn cases(topic: Topic, most: Option<u32>) -> Vec<Case> {
     let mut cases = Vec::new();
     for sized in sizes(topic) {
@@ -56,7 +56,7 @@ fn sizes(topic: Topic) -> Vec<Sized> {
     let sized = |topic, scene, own, always, set| Sized { topic, scene, own, always, set };
     let bodies = |count| vec![format!("particles.0.count={count}")];
     let fluid = |count| {
-        // The same box with finer water: steps are shorter by as much.
+        // The same box with a smaller spacing: steps are shorter by the same factor.
         let finer = (33_528.0 / f64::from(count)).cbrt();
         vec![format!("force.1.spacing={}", 0.04 * finer), format!("simulation.dt={}", 0.0004 * finer)]
     };
@@ -66,7 +66,7 @@ fn sizes(topic: Topic) -> Vec<Sized> {
         }
         Topic::Tree => vec![sized("tree", "plummer", 100_000, &["force.0.over=tree"], bodies)],
         Topic::Neighbors => vec![sized("neighbors", "flock", 10_000, &[], |count| {
-            // As many neighbours each.
+            // The number of neighbours stays the same.
             let wider = (f64::from(count) / 10_000.0).cbrt();
             let [x, z] = [16.0, 9.0].map(|side| side * wider);
             let size = format!("[{x}, {x}, {z}]");
@@ -87,7 +87,7 @@ fn sizes(topic: Topic) -> Vec<Sized> {
             "solve",
             "cloth",
             16_384,
-            // Too stiff to converge in so few iterations.
+            // So stiff that no solve converges in these iterations.
             &["simulation.integrator=linear_backward_euler", "simulation.dt=0.1", "solver.tolerance=1e-6"],
             |count| cloth(count, 1.0),
         )],
@@ -98,14 +98,14 @@ fn sizes(topic: Topic) -> Vec<Sized> {
     }
 }
 
-/// So many particles in a sheet that is so much longer than high.
+/// Columns and rows of a sheet with a number of particles and an aspect ratio.
 fn cloth(count: u32, long: f64) -> Vec<String> {
     let rows = (f64::from(count) / long).sqrt().round();
     vec![format!("particles.0.columns={}", (rows * long).round()), format!("particles.0.rows={rows}")]
 }
 
 impl Case {
-    /// What a simulation of it is made of, with more values set.
+    /// Its setup with additional overrides.
     pub fn setup(&self, more: &[String]) -> Result<Setup, Failure> {
         if self.topic == "stream" {
             return Ok(independent(self.count, self.scene));

@@ -18,16 +18,16 @@ use super::words::{duration, large};
 use case::Case;
 use results::Results;
 
-/// One measurement takes about this long, unless a step is longer \[s\].
+/// The approximate duration of a measurement, unless a step is longer \[s\].
 const SPAN: f64 = 0.3;
-/// Iterations of a solve: the time of one is the difference of steps with many and with few.
+/// Numbers of iterations of a solve: the time of an iteration is the difference between steps with many and with few.
 const ITERATIONS: [u32; 2] = [4, 24];
 
-/// Those that are measured if none is chosen.
+/// The topics that are measured by default.
 const ALL: [Topic; 7] =
     [Topic::Gravity, Topic::Tree, Topic::Neighbors, Topic::Springs, Topic::Fluids, Topic::Solve, Topic::Stream];
 
-/// Measures what was asked for.
+/// Measures the requested topics.
 pub async fn bench(args: &BenchArgs) -> Result<(), Failure> {
     let found = engine::open(gpu::adapters(&gpu::instance()).await, args.adapter.as_deref()).await?;
     let mut results = Results::new(args, &found);
@@ -73,7 +73,7 @@ async fn measure(args: &BenchArgs, found: &Found, topic: Topic, results: &mut Re
             continue;
         }
         match row(args, found, &case).await {
-            // What does not fit ends the sizes, not the bench.
+            // A size that does not fit ends this topic.
             Err(Failure::Error(error @ (Error::Limit(_) | Error::OutOfMemory(_)))) if args.to.is_some() => {
                 if !args.json {
                     out!("{name:>14}  {:>16}  {:>9}  left out: {error}", case.scene, case.count);
@@ -99,7 +99,7 @@ async fn row(args: &BenchArgs, found: &Found, case: &Case) -> Result<Value, Fail
     let mut simulation = Simulation::new(&found.device, &found.queue, &setup)?;
     drop(setup);
     let times = times(&mut simulation, repeat)?;
-    // Times of a run that came to nothing are none.
+    // The times of a failed run are not reported.
     simulation.check().await?;
     let step = median(&times);
     let rate = count as f64 / step;
@@ -111,7 +111,7 @@ async fn row(args: &BenchArgs, found: &Found, case: &Case) -> Result<Value, Fail
         "seconds_per_step": times, "particle_steps_per_second": rate }))
 }
 
-/// An iteration of conjugate gradients, of steps of which none converges.
+/// The time of an iteration of conjugate gradients, by steps in which no solve converges.
 async fn solve(args: &BenchArgs, found: &Found, case: &Case) -> Result<Value, Failure> {
     let mut simulations = Vec::new();
     let mut count = 0;
@@ -150,14 +150,14 @@ async fn solve(args: &BenchArgs, found: &Found, case: &Case) -> Result<Value, Fa
         "seconds_per_iteration": times }))
 }
 
-/// The middle of some numbers.
+/// The median.
 fn median(all: &[f64]) -> f64 {
     let mut sorted = all.to_vec();
     sorted.sort_by(f64::total_cmp);
     sorted.get(sorted.len() / 2).copied().unwrap_or(f64::NAN)
 }
 
-/// Seconds of a step, so many times; the first steps, in which a device compiles, do not count.
+/// Repeated measurements of the seconds of a step; the first steps, in which a device compiles, do not count.
 fn times(simulation: &mut Simulation<Gpu>, repeat: usize) -> Result<Vec<f64>, Error> {
     let mut take = |steps: u32| -> Result<f64, Error> {
         let start = Instant::now();

@@ -1,4 +1,4 @@
-//! What was measured, as JSON; a file of it is written anew after each measurement.
+//! The measurements as JSON; their file is written anew after each measurement.
 
 use std::io::Write as _;
 use std::path::PathBuf;
@@ -23,7 +23,7 @@ impl Results {
             "topics": [] });
         Self { value, file: args.output.clone() }
     }
-    /// Adds what one measurement gave.
+    /// Adds a measurement.
     pub fn add(&mut self, row: Value) -> Result<(), Failure> {
         if let Some(rows) = self.value["topics"].as_array_mut() {
             rows.push(row);

@@ -1,4 +1,4 @@
-//! Instructions of a kernel in SPIR-V, as naga writes it: what a driver is given, before it compiles.
+//! The number of instructions of a kernel in SPIR-V, as naga writes it for the driver.
 
 use std::collections::HashMap;
 
@@ -24,7 +24,7 @@ const FUNCTION_CALL: u32 = 57;
 const LOOP_MERGE: u32 = 246;
 const LABEL: u32 = 248;
 
-/// Those of the shader of a pass, with its constants; `None` where naga does not write it.
+/// The instructions of the shader of a pass, with its constants; `None` if naga cannot write it.
 pub fn instructions(pass: &Pass) -> Option<Instructions> {
     let module = naga::front::wgsl::parse_str(pass.shader.text()).ok()?;
     let info = Validator::new(ValidationFlags::all(), Capabilities::all()).validate(&module).ok()?;
@@ -38,14 +38,14 @@ pub fn instructions(pass: &Pass) -> Option<Instructions> {
     Some(count(&spv::write_vec(&module, &info, &options, Some(&pipeline)).ok()?))
 }
 
-/// A loop that is not over yet: where it goes on behind it, the instructions so far, and whether there is another inside.
+/// A loop that has not ended yet: the block after it, its instructions so far, and whether it contains another loop.
 struct Loop {
     merge: u32,
     spent: u64,
     nested: bool,
 }
 
-/// Counts the instructions of the last function, the entry point; those that it calls stand before it.
+/// Counts the instructions of the last function, which is the entry point; functions that it calls come before it.
 fn count(words: &[u32]) -> Instructions {
     let mut functions: HashMap<u32, Instructions> = HashMap::new();
     let (mut name, mut own, mut loops) = (0, Instructions { all: 0, iteration: 0 }, Vec::<Loop>::new());
@@ -113,7 +113,7 @@ mod tests {
         let turn = of("for (var i = 0u; i < N; i++) { x[0] += 1.0; }");
         let heavy = of("for (var i = 0u; i < N; i++) { x[0] += f(f(1.0)); }");
         assert!(turn.iteration > 0 && heavy.iteration >= turn.iteration + 4, "{heavy:?} {turn:?}");
-        // The outer loop is none of the innermost.
+        // The outer loop is not an innermost one.
         let nested = of(
             "for (var j = 0u; j < N; j++) { for (var i = 0u; i < N; i++) { x[0] += 1.0; } x[1] = f(f(f(f(x[2])))); }",
         );

@@ -1,4 +1,4 @@
-//! `motes stability`: the oscillator and the decay that every lecture shows, under every integrator.
+//! `motes stability`: a harmonic oscillator and an exponential decay by every integrator.
 
 mod picture;
 mod theory;
@@ -15,25 +15,25 @@ use super::args::StabilityArgs;
 use super::engine::Engine;
 use super::failure::Failure;
 
-/// A run after which what grows tenfold is called unstable.
+/// The number of steps in which an unstable mode grows tenfold.
 const LONG: f64 = 1e6;
-/// A limit of stability below this, in units of 1 / ω, is of no use.
+/// Stability limits below this, in units of 1 / ω, count as 0.
 const NONE: f64 = 0.05;
 
-/// What an integrator makes of the two equations.
+/// The solutions of the two equations by an integrator.
 struct Course {
     name: &'static str,
     /// E / E₀ of x″ = −ω² x after each step.
     energy: Vec<f64>,
     /// |u / u₀| of u′ = −a u.
     size: Vec<f64>,
-    /// By how much a step multiplies the energy, and |u|.
+    /// The factor of the energy, and of |u|, in a step.
     growth: [f64; 2],
     /// The largest hω and ha.
     limits: [f64; 2],
 }
 
-/// Runs both equations under every integrator; prints a table, and draws a picture.
+/// Integrates both equations by every integrator, prints a table, and draws a picture.
 pub async fn stability(args: &StabilityArgs) -> Result<(), Failure> {
     let engine = Engine::choose(&args.device).await?;
     let mut courses = Vec::new();
@@ -103,7 +103,7 @@ async fn course<B: Backend>(
     let size = run(Simulation::on(backend()?, &decay)?, args.steps, |_, v| v.length());
     let swings = Oscillator::on(backend()?, entry.by_default(), 1.0, 0.0)?.growth(y).await?;
     let mut step = Oscillator::on(backend()?, entry.by_default(), 0.0, 1.0)?.step(z).await?;
-    // Where it has come to does not matter to what decays.
+    // The decay does not depend on the position.
     step.x_axis = DVec3::ZERO;
     step.y_axis.x = 0.0;
     step.z_axis.x = 0.0;
@@ -120,7 +120,7 @@ async fn course<B: Backend>(
     })
 }
 
-/// Something that a run does, in parts of what it is at the start.
+/// A quantity of a run, relative to its initial value.
 async fn run<B: Backend>(
     mut simulation: Simulation<B>,
     steps: u32,
@@ -139,7 +139,7 @@ async fn run<B: Backend>(
     Ok(list.into_iter().map(|x| x / start).collect())
 }
 
-/// Seven digits at most.
+/// A number with at most seven digits.
 fn number(x: f64) -> String {
     if x != 0.0 && !(1e-3..1e5).contains(&x) { format!("{x:.3e}") } else { format!("{x:.6}") }
 }

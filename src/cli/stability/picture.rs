@@ -1,4 +1,4 @@
-//! The picture: energies above, what decays below, one curve for each integrator, with its name where it ends.
+//! The picture: the energy above, the decay below, one labelled curve for each integrator.
 
 use std::path::Path;
 
@@ -11,14 +11,14 @@ use crate::cli::args::StabilityArgs;
 use motes::run::plot::{Area, Axis, INK, axes, fine, line, text, write};
 
 const SIZE: (u32, u32) = (1080, 1000);
-/// Pixels above what is drawn: a title, and a row of names.
+/// Pixels above a panel: its title, and a row of names.
 const TOP: i32 = 72;
 /// Pixels between two names.
 const APART: i32 = 19;
-/// So many decades up and down are shown.
+/// The number of decades shown above and below 1.
 const DECADES: i32 = 4;
 
-/// The color of an integrator: warm for explicit ones that lose or gain, blue and green for symplectic ones, violet for
+/// The colour of an integrator: warm for explicit ones that lose or gain energy, blue and green for symplectic ones, violet for
 /// implicit ones.
 fn color(name: &str) -> RGBColor {
     match name {
@@ -37,14 +37,14 @@ fn color(name: &str) -> RGBColor {
     }
 }
 
-/// Integrators that do the same, under one name.
+/// Integrators with the same curve, under one name.
 struct Curve<'a> {
     name: String,
     color: RGBColor,
     values: &'a [f64],
 }
 
-/// Draws the courses into a file.
+/// Draws the solutions into a file.
 ///
 /// # Errors
 /// [`Error::Output`] when the file cannot be written.
@@ -64,7 +64,7 @@ pub fn draw(path: &Path, courses: &[Course], args: &StabilityArgs) -> Result<(),
     })
 }
 
-/// One curve for all of a kind that differ by less than a line's width everywhere.
+/// One curve for all integrators whose solutions differ by less than a line's width everywhere.
 fn curves(courses: &[Course], values: fn(&Course) -> &Vec<f64>) -> Vec<Curve<'_>> {
     let mut list: Vec<(bool, Vec<&str>, &[f64])> = Vec::new();
     for course in courses {
@@ -81,12 +81,12 @@ fn curves(courses: &[Course], values: fn(&Course) -> &Vec<f64>) -> Vec<Curve<'_>
     list.into_iter().map(curve).collect()
 }
 
-/// Whether it solves for the end of a step.
+/// Whether it is implicit.
 fn implicit(name: &str) -> bool {
     ["backward_euler", "trapezoid", "implicit_midpoint"].iter().any(|end| name.ends_with(end))
 }
 
-/// All names; one that is solved once and to the end alike appears once.
+/// All names; a linear and a Newton variant with one curve appear once.
 fn together(names: &[&str]) -> String {
     let solved = |name: &str| names.iter().any(|other| other.strip_prefix("linear_") == Some(name));
     let once = |name: &&&str| !name.strip_prefix("linear_").is_some_and(|whole| names.contains(&whole));
@@ -97,7 +97,7 @@ fn together(names: &[&str]) -> String {
     words.collect::<Vec<_>>().join(", ")
 }
 
-/// Within a decade of what is shown, so that equal curves are equal where they are not seen.
+/// A value limited to a decade beyond the range shown, so that curves are compared only where they are visible.
 fn shown(x: f64) -> f64 {
     let edge = 10f64.powi(DECADES + 1);
     if x.is_finite() { x.abs().clamp(1.0 / edge, edge) } else { edge }
@@ -130,7 +130,7 @@ fn panel(area: &Area, curves: &[Curve], title: &str, what: &str, steps: u32) -> 
     label(area, names)
 }
 
-/// `10⁻³` as people write it.
+/// A power of ten with superscript digits, such as `10⁻³`.
 fn power(x: f64) -> String {
     let digits = format!("{:.0}", x.log10());
     let raised = digits.chars().map(|c| match c {
@@ -144,7 +144,7 @@ fn power(x: f64) -> String {
     if digits == "0" || digits == "-0" { "1".to_owned() } else { format!("10{}", raised.collect::<String>()) }
 }
 
-/// The points up to the edge of the picture, and the place at which the curve leaves it.
+/// The points up to the edge of the picture, and the position at which the curve leaves it.
 fn inside(values: &[f64]) -> Vec<(f64, f64)> {
     let edge = f64::from(DECADES);
     let mut points: Vec<(f64, f64)> = Vec::new();
@@ -163,8 +163,8 @@ fn inside(values: &[f64]) -> Vec<(f64, f64)> {
     points
 }
 
-/// Names to the right of where curves end, moved apart; of those that leave by the top, in a row above it; of those that
-/// leave below, beside that place.
+/// The names of curves: at their right ends, moved apart; in a row above those that leave at the top; and beside those that
+/// leave at the bottom.
 fn label(area: &Area, mut names: Vec<((i32, i32), bool, &Curve)>) -> Result<(), String> {
     let write = |name: &str, color: RGBColor, at: (i32, i32)| {
         let style = text(15).color(&color).pos(Pos::new(HPos::Left, VPos::Center));
@@ -197,9 +197,9 @@ fn label(area: &Area, mut names: Vec<((i32, i32), bool, &Curve)>) -> Result<(), 
     Ok(())
 }
 
-/// Places in order, moved apart to a distance: those that would overlap stand about their middle.
+/// Positions in order, moved apart to a minimum distance: groups that would overlap are centred on their mean.
 fn apart(wanted: &[i32], distance: i32) -> Vec<i32> {
-    // First place and number of each group.
+    // The first position and the length of each group.
     let mut groups: Vec<(i32, i32)> = Vec::new();
     for place in wanted {
         groups.push((*place, 1));

@@ -1,6 +1,6 @@
 //! The theory of one step (Hairer & Wanner 1996, chapter IV; Hairer, Lubich & Wanner 2006, chapter I).
 
-/// By how much a step multiplies the energy of x″ = −ω² x, for y = hω.
+/// The factor of the energy of x″ = −ω² x in a step, for y = hω.
 pub fn energy(name: &str, y: f64) -> Option<f64> {
     let square = y * y;
     Some(match name {
@@ -8,7 +8,7 @@ pub fn energy(name: &str, y: f64) -> Option<f64> {
         "midpoint" | "heun" => 1.0 + square * square / 4.0,
         "rk4" => 1.0 - y.powi(6) / 72.0 + y.powi(8) / 576.0,
         "symplectic_euler" | "leapfrog" => {
-            // The trace of the step is 2 − y²; its eigenvalues leave the circle at y = 2.
+            // The trace of the step matrix is 2 − y²; its eigenvalues leave the unit circle at y = 2.
             let half = (square / 2.0 - 1.0).max(1.0);
             (half + (half * half - 1.0).sqrt()).powi(2)
         }
@@ -20,15 +20,15 @@ pub fn energy(name: &str, y: f64) -> Option<f64> {
     })
 }
 
-/// By how much a step multiplies |u| of u′ = −a u, for z = ha.
+/// The factor of |u| of u′ = −a u in a step, for z = ha.
 pub fn decay(name: &str, z: f64) -> Option<f64> {
     let two = 1.0 - z + z * z / 2.0;
     Some(match name {
-        // Leapfrog's kicks take the velocity of half a step ago: Euler's steps, half a step apart.
+        // The kicks of leapfrog use the velocity of half a step before: they are Euler steps, half a step apart.
         "forward_euler" | "symplectic_euler" | "leapfrog" => (1.0 - z).abs(),
         "midpoint" | "heun" => two,
         "rk4" => (two - z.powi(3) / 6.0 + z.powi(4) / 24.0).abs(),
-        // Each kick takes the velocity at hand. θ as by Forest & Ruth (1990), λ as by Omelyan, Mryglod & Folk (2002).
+        // Each kick uses the present velocity. θ of Forest & Ruth (1990), λ of Omelyan, Mryglod & Folk (2002).
         "forest_ruth" => {
             let theta = 1.0 / (2.0 - 2f64.cbrt());
             ((1.0 - theta * z).powi(2) * (1.0 - (1.0 - 2.0 * theta) * z)).abs()

@@ -1,4 +1,4 @@
-//! `motes sweep`: a scene for every combination of some values, and what becomes of it.
+//! `motes sweep`: runs of a scene for all combinations of some values.
 
 mod outcome;
 mod picture;
@@ -19,9 +19,9 @@ use super::{load, stop};
 use outcome::Ended;
 use vary::Varied;
 
-/// So many runs are made at most.
+/// The maximum number of runs.
 const MOST: usize = 10_000;
-/// What keeps a run to its tables.
+/// Overrides with which a run writes tables only.
 const NO_FILES: [&str; 2] = ["output.formats=[]", "output.frames=0"];
 
 /// Runs a scene with all combinations of values.
@@ -35,7 +35,7 @@ pub async fn sweep(args: &SweepArgs) -> Result<(), Failure> {
         return Err(Error::Scene(text).into());
     }
     let (args, cases) = (&plain(args), vary::combinations(&varied));
-    // What is wrong with any of them is said before the first one runs.
+    // All scenes are checked before the first one runs.
     let (mut name, mut remarks) = (String::new(), BTreeSet::new());
     for case in &cases {
         let scene = load::load(&args.scene, case).await?.scene;
@@ -69,7 +69,7 @@ pub async fn sweep(args: &SweepArgs) -> Result<(), Failure> {
     if stop.is_asked() {
         return Err(Failure::Stopped);
     }
-    // Where nothing came to its end there is nothing to compare: the first failure is that of the sweep.
+    // If no run has finished, the first failure is that of the sweep.
     if ended.iter().any(|one| one.error.is_none()) {
         return Ok(());
     }
@@ -77,7 +77,7 @@ pub async fn sweep(args: &SweepArgs) -> Result<(), Failure> {
     found.into_iter().flatten().find_map(outcome::Outcome::failure).map_or(Ok(()), Err)
 }
 
-/// Refuses to vary what another argument sets.
+/// Refuses to vary a key that another argument sets.
 fn settled(args: &SweepArgs, varied: &[Varied]) -> Result<(), Error> {
     let set = [("simulation.until", args.scene.until.is_some()), ("simulation.steps", args.scene.steps.is_some())];
     let length = ["simulation.until", "simulation.steps"];
@@ -92,7 +92,7 @@ fn settled(args: &SweepArgs, varied: &[Varied]) -> Result<(), Error> {
     })
 }
 
-/// The table and the plot. Those of an earlier sweep are removed only where that is asked for.
+/// The files of table and plot. Those of an earlier sweep are removed only if requested.
 fn files(output: &Path, overwrite: bool) -> Result<(PathBuf, PathBuf), Error> {
     let failed = |file: &Path, message: String| Error::Output { file: file.to_owned(), message };
     std::fs::create_dir_all(output).map_err(|why| failed(output, why.to_string()))?;
@@ -109,7 +109,7 @@ fn files(output: &Path, overwrite: bool) -> Result<(PathBuf, PathBuf), Error> {
     Ok((csv, svg))
 }
 
-/// The same without pictures and snapshots, unless they are asked for.
+/// The same overrides without pictures and snapshots, unless the arguments set them.
 fn plain(args: &SweepArgs) -> SweepArgs {
     let set = |key: &str| args.scene.overrides.iter().chain(&args.vary).any(|set| set.trim_start().starts_with(key));
     let asked = set("output.formats") || set("output.frames");
@@ -119,7 +119,7 @@ fn plain(args: &SweepArgs) -> SweepArgs {
 }
 
 impl SweepArgs {
-    /// Says how far it is.
+    /// Reports its progress.
     fn said(&self, text: &str) {
         if !self.show.json && !self.show.quiet {
             note!("{text}");

@@ -11,16 +11,16 @@ use serde_json::{Value, json};
 use super::vary::Varied;
 use crate::cli::failure::Failure;
 
-/// What a run left.
+/// The results of a run.
 pub struct Outcome {
-    /// Its measurements and its last state, or why it did not come to its end.
+    /// Its measurements and its final state, or its failure.
     result: Result<Left, Failure>,
     steps: u64,
-    /// How long its steps took.
+    /// The duration of its steps.
     took: Duration,
 }
 
-/// What a run that came to its end left: its first and its last measurement, the largest change of the energy, and its last state.
+/// The results of a run that finished: its first and its last measurement, the largest change of the energy, and its final state.
 struct Left {
     ends: [Energy; 2],
     change: f64,
@@ -28,28 +28,28 @@ struct Left {
     bounds: Bounds,
 }
 
-/// A run beside the others.
+/// A row of the table: a run compared with the others.
 pub struct Ended<'a> {
-    /// What was set for it.
+    /// Its overrides.
     pub case: &'a [String],
     pub steps: u64,
     pub seconds: f64,
-    /// The length of its steps, in the mean \[time\].
+    /// The mean length of its steps \[time\].
     pub dt: f64,
-    /// The change of the total energy from the first measurement to the last, relative to the first, and the largest on the way.
+    /// The change of the total energy from the first measurement to the last, relative to the first; and the largest change.
     pub energy: f64,
     pub worst_energy: f64,
     /// The change of the momentum \[mass length / time\].
     pub momentum: f64,
-    /// How far particles end from where those of the last run do: root of the mean square, and at most \[length\]. `None` in the last
-    /// run, and where there are others.
+    /// The differences of final positions from those of the last run: root mean square, and maximum \[length\]. `None` for the last
+    /// run, and if the particles differ.
     pub difference: Option<[f64; 2]>,
-    /// Why it did not come to its end.
+    /// Its failure, if it did not finish.
     pub error: Option<String>,
 }
 
 impl Outcome {
-    /// Of a run that was made.
+    /// The row of a run.
     pub fn of(made: Result<(Run, End), Failure>) -> Self {
         let (steps, took) = made.as_ref().map_or((0, Duration::ZERO), |(_, end)| (end.steps, end.stepping));
         let result = made.and_then(|(run, end)| {
@@ -60,7 +60,7 @@ impl Outcome {
         });
         Self { result, steps, took }
     }
-    /// In a few words.
+    /// A short description.
     pub fn words(&self, folder: &Path) -> String {
         match &self.result {
             Err(Failure::Stopped) => format!("stopped; motes resume {} continues it", folder.display()),
@@ -68,17 +68,17 @@ impl Outcome {
             Ok(_) => format!("{} steps in {:.2} s", self.steps, self.took.as_secs_f64()),
         }
     }
-    /// Whether it did not come to its end, and was not stopped.
+    /// Whether it failed; a stopped run has not failed.
     pub fn has_failed(&self) -> bool {
         matches!(&self.result, Err(failure) if !matches!(failure, Failure::Stopped))
     }
-    /// Why.
+    /// The reason.
     pub fn failure(self) -> Option<Failure> {
         self.result.err()
     }
 }
 
-/// All that ran, the last that came to its end as what ends are compared with.
+/// The rows of all runs; the last one that finished is the reference of final states.
 pub fn compared<'a>(cases: &'a [Vec<String>], found: &'a [Option<Outcome>]) -> Vec<Ended<'a>> {
     let ran: Vec<_> = cases.iter().zip(found).filter_map(|(case, one)| Some((case, one.as_ref()?))).collect();
     let last = ran.iter().rposition(|(_, one)| one.result.is_ok());
@@ -108,18 +108,18 @@ pub fn compared<'a>(cases: &'a [Vec<String>], found: &'a [Option<Outcome>]) -> V
     ran.iter().enumerate().map(one).collect()
 }
 
-/// Whether two states are of one time, but for rounding.
+/// Whether two states have the same time up to rounding.
 fn simultaneous(a: &State, b: &State) -> bool {
     (a.time - b.time).abs() <= 1e-9 * a.time.abs().max(b.time.abs())
 }
 
-/// Whether all runs that came to their end ended at one time.
+/// Whether all runs that finished ended at the same time.
 pub fn end_together(found: &[Option<Outcome>]) -> bool {
     let mut states = found.iter().flatten().filter_map(|one| one.result.as_ref().ok()).map(|left| &left.state);
     states.next().is_none_or(|first| states.all(|other| simultaneous(first, other)))
 }
 
-/// How far the particles of two states of one time are from each other, by their ids and to the nearest image.
+/// The distances between the particles of two states, by their ids and to the nearest images.
 fn apart(bounds: &Bounds, [a, b]: [&State; 2]) -> Option<[f64; 2]> {
     if !simultaneous(a, b) || a.len() != b.len() || a.ids() != b.ids() || a.is_empty() {
         return None;
@@ -128,8 +128,8 @@ fn apart(bounds: &Bounds, [a, b]: [&State; 2]) -> Option<[f64; 2]> {
     Some([(squares().sum::<f64>() / a.len() as f64).sqrt(), squares().fold(0.0, f64::max).sqrt()])
 }
 
-/// The order of convergence, where steps alone are varied and fall from run to run: by least squares of the logarithms of differences
-/// from the last run, which is taken for exact, over those of steps; `None` where fewer than three runs differ from it.
+/// The order of convergence, if dt alone is varied and decreases from run to run: by least squares of the logarithms of differences
+/// from the last run, which counts as exact, over those of dt; `None` if fewer than three runs differ from it.
 pub fn order(varied: &[Varied], ended: &[Ended<'_>]) -> Option<f64> {
     let falls = ended.windows(2).all(|two| two[1].dt < two[0].dt);
     if varied.len() != 1 || varied[0].key != "simulation.dt" || !falls {
@@ -148,7 +148,7 @@ pub fn order(varied: &[Varied], ended: &[Ended<'_>]) -> Option<f64> {
 }
 
 impl Ended<'_> {
-    /// The values that were set, without their keys.
+    /// The values of its overrides, without their keys.
     pub fn values(&self) -> Vec<&str> {
         self.case.iter().map(|set| set.split_once('=').map_or("", |(_, value)| value)).collect()
     }

@@ -1,4 +1,4 @@
-//! The picture of a sweep of one number: the errors over it, both on logarithmic axes where they can be.
+//! The plot of a sweep of one number: errors over that number, with logarithmic axes where possible.
 
 use std::path::Path;
 
@@ -16,7 +16,7 @@ const DIFFERENCE: RGBColor = RGBColor(36, 104, 196);
 
 type Points = Vec<(f64, f64)>;
 
-/// Draws it, and tells whether there was anything to draw.
+/// Draws it. Returns whether there was anything to draw.
 ///
 /// # Errors
 /// [`Error::Output`] when the file cannot be written.
@@ -40,7 +40,7 @@ pub fn draw(path: &Path, name: &str, varied: &[Varied], ended: &[Ended<'_>]) -> 
     Ok(true)
 }
 
-/// Whole decades around some numbers.
+/// The range of whole decades that contains some numbers.
 fn decades(all: impl Iterator<Item = f64>) -> (f64, f64) {
     let (low, high) = all.fold((f64::INFINITY, 0.0_f64), |(low, high), x| (low.min(x), high.max(x)));
     let low = 10f64.powf(low.log10().floor());

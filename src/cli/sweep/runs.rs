@@ -13,7 +13,7 @@ use crate::cli::engine::Engine;
 use crate::cli::failure::Failure;
 use crate::cli::load;
 
-/// Where runs are made: one after another on each of these.
+/// The backends of the runs, each of which makes one run after another.
 pub struct Engines(Vec<(DeviceArgs, Engine)>);
 
 impl Engines {
@@ -44,7 +44,7 @@ impl Engines {
     }
 }
 
-/// Makes all runs; those that a stop leaves out are `None`.
+/// Makes all runs; those that a stop prevents are `None`.
 pub fn all(
     args: &SweepArgs,
     cases: &[Vec<String>],
@@ -58,7 +58,7 @@ pub fn all(
         for (device, engine) in &engines.0 {
             let (left, found) = (&left, &found);
             scope.spawn(move || {
-                // A device that has complained once is opened anew.
+                // A device that has reported an error is opened anew.
                 let mut another = None;
                 while !stop.is_asked() {
                     let Some((place, case)) = left.lock().ok().and_then(|mut left| left.next()) else { return };
@@ -80,7 +80,7 @@ pub fn all(
     found.into_inner().unwrap_or_default()
 }
 
-/// One of the runs.
+/// Makes one run.
 async fn one(
     args: &SweepArgs,
     case: &[String],

@@ -1,4 +1,4 @@
-//! The table of a sweep, for eyes and for programs.
+//! The table of a sweep, as text and as CSV.
 
 use std::io::Write;
 use std::path::Path;
@@ -31,7 +31,7 @@ fn numbers(one: &Ended<'_>) -> [Option<f64>; 5] {
     ]
 }
 
-/// Writes it as a table of comma-separated values; the last column says why a run failed.
+/// Writes it as comma-separated values; the last column is the reason of a failure.
 ///
 /// # Errors
 /// [`Error::Output`] when the file cannot be written.
@@ -53,7 +53,7 @@ pub fn write(path: &Path, varied: &[Varied], ended: &[Ended<'_>]) -> Result<(), 
     atomically(path, |out| out.write_all(text.as_bytes()))
 }
 
-/// The same for eyes.
+/// The same as text.
 pub fn text(varied: &[Varied], ended: &[Ended<'_>]) -> String {
     let head = ["steps", "seconds", "energy error", "largest", "momentum", "difference (rms)", "largest"];
     let mut rows: Vec<Vec<String>> =
@@ -68,7 +68,7 @@ pub fn text(varied: &[Varied], ended: &[Ended<'_>]) -> String {
         }
         rows.push(row);
     }
-    // What went wrong stands behind all columns, and makes none wider.
+    // The reason of a failure follows all columns, and does not widen any.
     let failed = |row: &[String], place: usize| row.len() == varied.len() + 1 && place == varied.len();
     let width = |place: usize| {
         let cells = rows.iter().filter(|row| !failed(row, place)).filter_map(|row| row.get(place));
@@ -81,6 +81,6 @@ pub fn text(varied: &[Varied], ended: &[Ended<'_>]) -> String {
         });
         cells.collect::<Vec<_>>().join("  ")
     };
-    let what = "difference: of the final positions from those of the last run that came to its end";
+    let what = "difference: of the final positions from those of the last run that finished";
     rows.iter().map(line).chain([what.to_owned()]).collect::<Vec<_>>().join("\n")
 }

@@ -5,20 +5,20 @@ use motes::Error;
 /// Characters of values in the name of a folder.
 const LONGEST: usize = 120;
 
-/// A key and its values, as they are written.
+/// A key and its values, as given.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Varied {
-    /// Such as `simulation.dt`.
+    /// The key, such as `simulation.dt`.
     pub key: String,
-    /// Such as `0.1`, `0.05`.
+    /// The values, such as `0.1` and `0.05`.
     pub values: Vec<String>,
 }
 
 impl Varied {
-    /// From `key=value,value,…`; commas in brackets and quotes are part of a value.
+    /// Parses `key=value,value,…`; commas in brackets and quotes are part of a value.
     ///
     /// # Errors
-    /// [`Error::Scene`] when there is no key, no value, or one twice.
+    /// [`Error::Scene`] if there is no key, no value, or a value twice.
     pub fn parse(text: &str) -> Result<Self, Error> {
         let wrong = |why: &str| {
             Error::Scene(format!(
@@ -43,7 +43,7 @@ impl Varied {
         }
         Ok(Self { key: key.to_owned(), values })
     }
-    /// Its values as numbers, where all of them are.
+    /// Its values as numbers, if all of them are numbers.
     pub fn numbers(&self) -> Option<Vec<f64>> {
         let number = |text: &String| text.parse().ok().filter(|x: &f64| x.is_finite());
         self.values.iter().map(number).collect()
@@ -87,7 +87,7 @@ pub fn combinations(all: &[Varied]) -> Vec<Vec<String>> {
     })
 }
 
-/// The name of a folder for one of so many combinations: its number and its values, without characters that systems refuse.
+/// The name of a folder for a combination: its number and its values, without characters that file systems refuse.
 pub fn folder(place: usize, of: usize, case: &[String]) -> String {
     let plain = |c: char| if c.is_ascii_alphanumeric() || "=.-+".contains(c) { c } else { '_' };
     let words = case.iter().map(|set| set.chars().map(plain).collect::<String>());

@@ -69,7 +69,10 @@ impl<'a> Step<'a> {
     /// When a shader does not compile.
     pub fn time(problem: &Problem) -> Result<Plan, Error> {
         let kernel = if problem.adaptive_step.is_some() { adaptive::at(0.0, problem) } else { at::kernel(0.0) };
-        Ok(Plan::of(vec![kernel?]))
+        let mut step = Self::new(&[], problem.clone());
+        step.prove();
+        step.add(kernel);
+        step.error.map_or(Ok(step.plan), Err)
     }
     /// The two plans around a measurement: the first saves the forces that the next step uses and evaluates them at the present state; the
     /// second restores the saved ones.

@@ -71,27 +71,19 @@ fn kernel(problem: &Problem, first: usize, end: usize, kind: &str, files: Vec<So
         Ok(())
     };
     let pass = Pass { constants, ..Pass::new(shader, number(end - first)) };
-    let tables = motion::tables(&problem.motions, problem.dt);
+    let (mut tables, of_tables) = problem.motion_tables();
+    tables.push(("holds".into(), Arc::new(motion::list(&problem.held))));
     let count = problem.held.len() as u64;
+    let mut sizes = vec![("holds".into(), count), (HOME.name.into(), count)];
+    sizes.extend(of_tables);
+    sizes.extend(problem.clock_sizes());
     Ok(Kernel {
         name: format!("lead {kind}"),
         passes: vec![pass],
         reference: Some(Arc::new(reference)),
-        sizes: vec![
-            ("holds".into(), count),
-            (HOME.name.into(), count),
-            ("motions".into(), tables.sizes[0]),
-            ("keyframes".into(), tables.sizes[1]),
-        ]
-        .into_iter()
-        .chain(problem.clock_sizes())
-        .collect(),
+        sizes,
         scratch: Vec::new(),
-        tables: vec![
-            ("holds".into(), Arc::new(motion::list(&problem.held))),
-            ("motions".into(), tables.motions),
-            ("keyframes".into(), tables.keys),
-        ],
+        tables,
     })
 }
 

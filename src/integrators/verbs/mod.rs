@@ -4,6 +4,7 @@
 pub mod adaptive;
 pub mod at;
 pub mod clear;
+pub mod compensated;
 pub mod drift;
 pub mod held;
 pub mod keep;

@@ -19,8 +19,10 @@ const FIELDS: [&str; 8] =
 pub fn check(joined: &Joined) -> Result<(), Error> {
     for source in joined.sources.iter().filter(|source| source.law) {
         if source.says(&["@", "compute"]) || source.says(&["@", "vertex"]) || source.says(&["@", "fragment"]) {
-            let message =
-                format!("{}: a law has functions and no entry point: motes calls them from its own", source.file);
+            let message = format!(
+                "{}: a law must not contain an entry point: motes calls its functions from entry points of its own",
+                source.file
+            );
             return Err(Error::Shader { message });
         }
     }
@@ -83,8 +85,8 @@ fn names(joined: &Joined, function: &Function) -> Result<(), Error> {
         if !theirs && is_written(variable.space) {
             let name = variable.name.as_deref().unwrap_or_default();
             let message = format!(
-                "`{name}` is a buffer that only motes writes, while the law runs: a law has what its functions are given and \
-                 the fields that it may read, and what it returns is added for it"
+                "`{name}` is a buffer that only motes writes, while the law runs: a law reads the arguments of its functions \
+                 and the columns that it binds, and motes adds what it returns"
             );
             return Err(joined.fault(&message, function.expressions.get_span(handle), "not for a law"));
         }
@@ -123,7 +125,7 @@ fn waits(joined: &Joined, block: &Block) -> Result<(), Error> {
             _ => continue,
         };
         let message = format!(
-            "a law has no {what}: its functions are called for one particle at a time, by some invocations of a workgroup and not \
+            "a law must not contain a {what}: its functions are called for one particle at a time, by some invocations of a workgroup and not \
              by others, which would wait forever"
         );
         return Err(joined.fault(&message, *span, "remove it"));

@@ -43,7 +43,7 @@ impl Lamp<'_> {
             return 0.0;
         }
         let way = LAMP + WIDTH * (jitter.x * LAMP_RIGHT + jitter.y * LAMP_UP);
-        if meet(self.solids, q, way, 0.0).is_none() { 1.0 } else { 0.0 }
+        if meet(self.solids, q, way, 0.0, false).is_none() { 1.0 } else { 0.0 }
     }
 }
 
@@ -63,9 +63,12 @@ pub fn strand(color: DVec3, along: DVec3, view: DVec3, light: f64) -> DVec3 {
     color * (0.25 + (0.2 + 0.45 * light) * day) + (0.1 + 0.35 * light) * shine * (0.3 + 0.7 * color)
 }
 
-/// The nearest of all that is further along a ray than `least`.
-pub fn meet(solids: &[Solid], o: DVec3, d: DVec3, least: f64) -> Option<Meeting<'_>> {
+/// The nearest of all that is further along a ray than `least`. What is cut open, as cones are, has no shadow.
+pub fn meet(solids: &[Solid], o: DVec3, d: DVec3, least: f64, open: bool) -> Option<Meeting<'_>> {
     let met = |solid: &'_ Solid| {
+        if !open && matches!(solid.shape, Shape::Cone { .. }) {
+            return None;
+        }
         let own = |v: DVec3| solid.turn.conjugate() * v;
         let (way, normal) = into(&solid.shape, own(o - solid.place), own(d))?;
         (way > least && way < NEVER).then_some((way, solid.turn * normal))
@@ -79,7 +82,7 @@ fn into(shape: &Shape, o: DVec3, d: DVec3) -> Option<(f64, DVec3)> {
         Shape::Ball { radius } => into_round(radius, 0.0, o, d),
         Shape::Capsule { radius, half } => into_round(radius, half, o, d),
         Shape::Box { half } => into_box(half, o, d),
-        Shape::Cone { .. } => None,
+        Shape::Cone { radius, end, half } => out_of_cone([radius, end], half, o, d),
         Shape::Plane => (d.z < 0.0).then(|| (-o.z / d.z, DVec3::Z)),
     }
 }
@@ -101,6 +104,26 @@ fn into_ball(o: DVec3, d: DVec3, radius: f64) -> Option<f64> {
     let along = -o.dot(d) / d.length_squared();
     let rest = radius * radius - (o + along * d).length_squared();
     (rest >= 0.0).then(|| along - (rest / d.length_squared()).sqrt())
+}
+
+/// Where a ray leaves a cone about z, if it does between the ends.
+fn out_of_cone([low, high]: [f64; 2], half: f64, o: DVec3, d: DVec3) -> Option<(f64, DVec3)> {
+    let slope = 0.5 * (high - low) / half;
+    let wide = 0.5 * (high + low) + slope * o.z;
+    let (flat_o, flat_d) = (o.truncate(), d.truncate());
+    let a = flat_d.length_squared() - slope * slope * d.z * d.z;
+    let b = flat_o.dot(flat_d) - slope * d.z * wide;
+    let c = flat_o.length_squared() - wide * wide;
+    let root = b.mul_add(b, -a * c);
+    if root < 0.0 {
+        return None;
+    }
+    let root = root.sqrt();
+    // Of two forms that which does not cancel.
+    let way = if b < 0.0 { (root - b) / if a.abs() < THIN { THIN } else { a } } else { -c / (b + root).max(1e-30) };
+    let p = o + way * d;
+    let radius = wide + slope * way * d.z;
+    (p.z.abs() <= half && radius > 0.0).then(|| (way, (-p.truncate()).extend(slope * radius).normalize()))
 }
 
 /// Where the last of three slabs is entered, if that is before the first is left.

@@ -83,7 +83,7 @@ impl Stage<'_> {
             (off.extend(0.0), DVec3::NEG_Z, -NEVER)
         };
         let (view, jitter) = (-d.normalize(), place - place.floor() - 0.5);
-        let met = meet(self.lamp.solids, o, d, least);
+        let met = meet(self.lamp.solids, o, d, least, true);
         if facet != NONE {
             let parts = self.raster.facet(facet).within(self.frame, place);
             let depth = self.raster.facet(facet).depth(self.frame, parts);

@@ -29,8 +29,8 @@ fn finish(me: Particle, sum: Sum) -> vec4f { return vec4f(sum.acceleration, 0.0)
 fn others(machine: Machine) -> Vec<Kernel> {
     let flag = Flag { field: "solver".into(), word: 0, member: "done" };
     let mut all = [repeat::proceed(&flag, 3, 2), repeat::reset(6)].map(|kernel| kernel.expect("a loop")).to_vec();
-    let Questions { long_loop, arithmetic } = Questions::default();
-    for source in [long_loop, arithmetic] {
+    let Questions { long_loop, arithmetic, numbers } = Questions::default();
+    for source in [long_loop, arithmetic, numbers] {
         let mut question = all[0].clone();
         question.name = source.file.to_string();
         question.passes = vec![Pass::new(Shader::join(&[source]).expect("a shader"), 1)];

@@ -45,7 +45,7 @@ fn steps_overlaps_and_precision_are_remarked_on() {
         "{remarks:?}"
     );
     assert!(
-        has(&remarks, Severity::Note, &["1 particles start inside of an obstacle", "particle 0", "3.000e-1"]),
+        has(&remarks, Severity::Note, &["particles start inside of an obstacle", "particle 0", "3.000e-1"]),
         "{remarks:?}"
     );
     let long = remarks.iter().find(|remark| remark.id == "long-step").expect("it is too long");

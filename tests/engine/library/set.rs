@@ -185,7 +185,7 @@ fn a_motion_changes() {
         let said = simulation.set_motion(Motion { name: "lft".to_owned(), ..to(1.0) }).expect_err("none").to_string();
         assert!(said.contains("\"lft\"") && said.contains("did you mean `lift`"), "{said}");
         let said = simulation.set_motion(Motion { keys: Vec::new(), ..to(1.0) }).expect_err("no keys").to_string();
-        assert!(said.contains("no keys"), "{said}");
+        assert!(said.contains("no keyframes"), "{said}");
     });
 }
 

@@ -31,7 +31,7 @@ fn ranges_that_are_none_are_refused() {
     for range in [0.0, -0.0, -1.0, f64::NAN, f64::INFINITY, f64::NEG_INFINITY, 1e-20, 1e-300, 1e20, f64::MAX] {
         for over in [Over::Near { range, of: None }, Over::Near { range, of: Some(1) }, Over::Within { range }] {
             let text = refusal(over);
-            assert!(text.contains(&format!("a range of {range}: ")) && text.contains("1.1e-19"), "{text}");
+            assert!(text.contains(&format!("a range of {range:e}: ")) && text.contains("1.1e-19"), "{text}");
         }
     }
     for count in [0, 17, u32::MAX] {

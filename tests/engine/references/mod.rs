@@ -9,8 +9,8 @@ use crate::support::machines::{self, alone, gpu};
 use crate::support::states::{force, integrator};
 use motes::forces::Stage;
 use motes::gpu::Gpu;
-use motes::integrators::{INTEGRATORS, Step};
-use motes::kernel::{ACCELERATION, Backend, POSITION, Plan, VELOCITY};
+use motes::integrators::{INTEGRATORS, Precise, Step};
+use motes::kernel::{ACCELERATION, Backend, POSITION, Plan, Precision, VELOCITY};
 use motes::lockstep::{Verdict, compare};
 use motes::{Setup, Simulation, forces};
 
@@ -150,6 +150,24 @@ fn every_integrator_whole() {
                 v.field == "alarm" || weightless || settled
             };
             judge(&verdicts(simulation.backend(), &plans.step, count, &entry.name), count, &entry.name, idle);
+        }
+    }
+}
+
+#[test]
+fn integrators_in_two_words() {
+    let shared = crate::support::device();
+    for name in ["forward_euler", "symplectic_euler", "leapfrog", "forest_ruth", "pefrl"] {
+        for count in SIZES {
+            let integrator = Precise { integrator: integrator(name), precision: Precision::Compensated };
+            let forces = vec![force("wind", &[]), force("attractor", &[])];
+            let setup = Setup { integrator: Box::new(integrator), dt: 0.001_7, ..setup(count, forces, name) };
+            let gpu = gpu(&shared, count);
+            let plan = setup.plans(gpu.machine()).expect("plans").step;
+            let mut simulation = Simulation::on(gpu, &setup).expect("a simulation");
+            simulation.step(3).expect("three steps");
+            let idle = |v: &Verdict| v.field == "alarm";
+            judge(&verdicts(simulation.backend(), &plan, count, &name), count, &name, idle);
         }
     }
 }

@@ -12,8 +12,9 @@ use super::restarts::{compare, every_scene, mixed};
 use crate::support;
 
 /// What begins with zeros: alarms, the clock, that no list of neighbours is there, the pressure from which a solver starts, and the
-/// pressure of walls, which no kernel writes and states hold.
-const ZEROS: &[&str] = &["alarm", "world", "list_state", "warm_start", "stiffness"];
+/// pressure of walls, which no kernel writes and states hold; and torques, which a state restores and which are zero where no grain touches
+/// another.
+const ZEROS: &[&str] = &["alarm", "world", "list_state", "warm_start", "stiffness", "torque", "kept_torque"];
 
 /// Words that fill memory, in turns: those of NaN, and 1.5.
 const WORDS: [u32; 2] = [0x7fc1_2345, 0x3fc0_0000];

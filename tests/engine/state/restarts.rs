@@ -5,7 +5,7 @@ use std::path::Path;
 
 use glam::{DVec3, Vec4};
 use motes::formats::{Precision, csv, npz};
-use motes::integrators::INTEGRATORS;
+use motes::integrators::{INTEGRATORS, Precise};
 use motes::kernel::{Backend, Columns, base};
 use motes::motion::{Held, Hold};
 use motes::scene::SCENES;
@@ -159,6 +159,49 @@ fn every_integrator_goes_on_with_the_same_bits() {
         failures.extend([device, host].into_iter().filter_map(Result::err).map(|why| format!("{}: {why}", entry.name)));
     }
     assert!(failures.is_empty(), "{}", failures.join("\n"));
+}
+
+/// The same forces, positions and velocities in two words, whose last digits a sum in f64 lacks.
+fn in_two_words(integrator: &str) -> Setup {
+    let precision = motes::kernel::Precision::Compensated;
+    Setup { integrator: Box::new(Precise { integrator: self::integrator(integrator), precision }), ..mixed(integrator) }
+}
+
+#[test]
+fn two_words_go_on_with_the_same_bits() {
+    let shared = support::device();
+    for name in ["forward_euler", "symplectic_euler", "leapfrog", "forest_ruth", "pefrl"] {
+        compare(&|| in_two_words(name), &on_device(&shared), Precision::Double)
+            .unwrap_or_else(|why| panic!("{name}: {why}"));
+        compare(&|| in_two_words(name), &on_host, Precision::Double).unwrap_or_else(|why| panic!("{name}: {why}"));
+    }
+}
+
+#[test]
+fn spawned_and_written_particles_have_low_words_of_their_own() {
+    let shared = support::device();
+    let setup = in_two_words("leapfrog");
+    let mut simulation = on_device(&shared)(&setup).expect("a simulation");
+    simulation.step(FIRST).expect("steps");
+    // Numbers that single precision does not hold.
+    let mut new = support::cloud(7, 3);
+    new.links = motes::links::Links::default();
+    let ids = block_on(simulation.spawn(&new)).expect("ids");
+    let state = block_on(simulation.snapshot()).expect("a state");
+    let first = ids[0] as usize;
+    let two_words = |got: DVec3, want: DVec3| (got - want).abs().max_element() < 1e-14 * want.length();
+    for (n, want) in new.position().iter().enumerate() {
+        assert!(two_words(state.position()[first + n], *want), "{} is not {want}", state.position()[first + n]);
+    }
+    let places: Vec<DVec3> = state.position().iter().map(|x| *x * 1.1).collect();
+    block_on(simulation.write_column("position", &motes::kernel::Array::Vec3(places.clone()))).expect("written");
+    let state = block_on(simulation.snapshot()).expect("a state");
+    assert!(state.position().iter().zip(&places).all(|(got, want)| two_words(*got, *want)));
+    // Single precision brings no low words.
+    let single: Vec<Vec4> = places.iter().map(|x| x.extend(1.0).as_vec4()).collect();
+    simulation.write(POSITION, &single).expect("written");
+    let state = block_on(simulation.snapshot()).expect("a state");
+    assert!(state.position().iter().zip(&single).all(|(got, want)| *got == want.truncate().as_dvec3()));
 }
 
 /// The state of some steps.

@@ -90,7 +90,7 @@ fn a_csv_reports_all_that_is_wrong_at_once() {
     refused(
         "a.csv",
         "id,x,y,z\n0,1,1,1\n3,1,1,1\n1,1,1,1\n3,1,1,1\n",
-        &["line 5: id 3 again; it is already at line 3"],
+        &["line 5: the id 3 is there already, at line 3: ids must differ"],
     );
     refused("a.csv", "id,x,y,z\n-1,1,1,1\n1.5,1,1,1\n", &["`-1` is not a whole number", "`1.5` is not a whole"]);
     refused("a.csv", "id,x,y,z\n4294967295,1,1,1\n", &["ids above 4294967294 are not supported: renumber"]);

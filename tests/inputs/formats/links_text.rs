@@ -76,7 +76,7 @@ fn all_that_is_wrong_at_once() {
     );
     let expected = [
         "unknown column `wight`; known are a, b, rest, stiffness, damping, tie",
-        "the column `rest` is there twice",
+        "the column `rest` is there twice: remove one of them",
         "line 3, column tie: `string` is none of spring, rope, rod",
         "line 5, column a: there is no particle 9; there are 9, from 0 on",
         "line 6, column a: `-1` is not the id of a particle",
@@ -85,7 +85,7 @@ fn all_that_is_wrong_at_once() {
         "line 8, column stiffness: NaN is not a finite number, zero or above",
         "line 8, column damping: inf is not a finite number, zero or above",
         "line 8: particle 1 is linked to itself",
-        "line 10: particles 3 and 2 are linked again; they are already at line 9",
+        "line 10: particles 3 and 2 are linked again, after line 9: remove one of the two",
         "line 11, column b: the cell is missing",
         "line 12, column rest: inf is not a finite number, zero or above",
         "line 12, column stiffness: `five` is not a number",

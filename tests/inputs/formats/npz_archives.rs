@@ -110,7 +110,7 @@ fn archives_that_lie_are_refused() {
     says(&with("species", f4(&[0.0, 2.5])), &["species[1] is 2.5, which is not a whole number"]);
     says(&with("species", f4(&[-1.0, 2.0])), &["species[0] is -1.0, which is not a whole number"]);
     says(&with("species", f4(&[1.0])), &["the array `species` holds 1 numbers"]);
-    says(&with("id", f4(&[2.0, 2.0])), &["id[1]: id 2 again; it is already at id[0]"]);
+    says(&with("id", f4(&[2.0, 2.0])), &["id[1]: the id 2 is there already, at id[0]"]);
     says(&with("time", two.clone()), &["`time` holds 2 numbers"]);
 
     // One bit of the data changed: the archive's checksum notices.

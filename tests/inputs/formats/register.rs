@@ -239,7 +239,7 @@ fn files_that_promise_too_much_are_refused_without_memory() {
     refused_as(
         "a.vtp",
         altered("vtp", b"NumberOfPoints=\"5\"", b"NumberOfPoints=\"4\""),
-        "needs 48 bytes, and the file has 60 for it",
+        "needs 48 bytes, and its count announces 60",
     );
     refused_as("a.vtp", altered("vtp", b"offset=\"0\"", b"offset=\"99999999999999999999\""), "no offset");
     refused_as(

@@ -78,7 +78,7 @@ fn parts_that_do_not_belong_together_are_refused() {
     // Twice the same part.
     fs::copy(&files[2], &files[1]).expect("a copy");
     let why = said(&files[0]);
-    assert!(why.contains("again; it is already at") || why.contains("the set announces"), "{why}");
+    assert!(why.contains("is there already, at") || why.contains("the set announces"), "{why}");
     fs::remove_file(&files[1]).expect("a part");
     assert!(said(&files[0]).contains("a.1.hdf5"));
     fs::write(&files[1], &own).expect("a part");

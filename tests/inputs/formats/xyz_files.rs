@@ -98,7 +98,7 @@ fn faults_are_reported_with_their_lines() {
         ("1\nProperties=species:S:1:pos:R:3\nQq 0 0 0\n", "line 3, species: `Qq` is no number"),
         ("1\nProperties=pos:R:3\n0 nan 0\n", "line 3, pos: `nan` is not finite"),
         ("1\nProperties=pos:R:3:mass:R:1\n0 0 0 -1\n", "line 3, mass: `-1` is below 0"),
-        ("2\nProperties=id:I:1:pos:R:3\n0 0 0 0\n0 1 1 1\n", "id 0 again"),
+        ("2\nProperties=id:I:1:pos:R:3\n0 0 0 0\n0 1 1 1\n", "the id 0 is there already"),
         ("1\nProperties=id:I:1:pos:R:3\n-3 0 0 0\n", "line 3, id: `-3` is no id"),
         ("1\nProperties=id:I:1:id:I:1:pos:R:3\n0 0 0 0 0\n", "line 2: `id` is there twice"),
         ("1\nProperties=pos:R:3\n0 0 0\n1\nProperties=pos:R:3\n0 0 0\n", "line 4: a second frame begins"),

@@ -163,7 +163,7 @@ fn a_box_too_far_out_for_single_precision() {
     assert_report(
         &format!("{SMALL}[box]\nlow = [1e9, 0, 0]\nsize = [2, 3, 4]\n"),
         &[],
-        "error: the box reaches along x from 1000000000 to 1000000002, and is periodic there: it must end above where it \
+        "error: the box reaches along x from 1000000000.0 to 1000000002.0, and is periodic there: it must end above where it \
          begins, in single precision; or make it open along x
   --> a.toml:8:8
    |

@@ -133,7 +133,7 @@ fn a_file_may_hold_too_many() {
     assert_eq!(most(2).map(|scene| scene.particles.len()), Ok(2));
     let (report, code) = most(1).err().expect("two are too many");
     assert!(report.starts_with("error: 2 particles are too many\n"), "{report}");
-    assert!(report.contains("^^^^^^^^^^^^ there is room for 1\n"), "{report}");
+    assert!(report.contains("^^^^^^^^^^^^ the maximum is 1\n"), "{report}");
     assert_eq!(code, 4);
 }
 
@@ -222,7 +222,7 @@ fn a_law_of_ones_own_is_read_from_its_file() {
  7 | wgsl = "swirl.wgsl"
    |        ^^^^^^^^^^^^
 
-error: unknown over "all_of_it"
+error: unknown visit "all_of_it"
   --> scene.toml:8:8
    |
  8 | over = "all_of_it"

@@ -76,10 +76,10 @@ motion = \"lit\"
     );
     let said = faults(&text).to_string();
     for words in [
-        "a key at 1 comes after one at 1",
+        "a keyframe at 1 comes after one at 1",
         "two motions are called \"lift\"",
-        "a key lacks `time`",
-        "the motion \"jump\" repeats, and its last key differs from its first",
+        "a keyframe lacks `time`",
+        "the motion \"jump\" repeats, and its last keyframe differs from its first",
         "particle 0 is fixed already",
         "there is no particle 1 in [[particles]]",
         "`fixed` must be a list of whole numbers, zero or above, not 0.5",

@@ -18,7 +18,7 @@ bodies = [{ position = [0, 0, 0] }]
    |
  3 | stepps = 10
    | ^^^^^^ did you mean `steps`?
-   = known here: `steps`, `until`, `integrator`, `dt`, `adaptive`, `dt_min`, `dt_before`, `cfl`
+   = known here: `steps`, `until`, `integrator`, `dt`, `adaptive`, `dt_min`, `dt_before`, `cfl`, `precision`
 
 a.toml: 1 error",
     );
@@ -64,7 +64,7 @@ bodies = [{ position = [0, 0, 0] }]
    |
  4 | every = 5
    | ^^^^^ it belongs in [output]
-   = known here: `steps`, `until`, `integrator`, `dt`, `adaptive`, `dt_min`, `dt_before`, `cfl`
+   = known here: `steps`, `until`, `integrator`, `dt`, `adaptive`, `dt_min`, `dt_before`, `cfl`, `precision`
 
 a.toml: 1 error",
     );

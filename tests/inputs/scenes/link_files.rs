@@ -41,7 +41,7 @@ fn faults_of_a_file_name_its_lines() {
         r#"error: /net.csv: 
   line 5: particle 1 is linked to itself
   line 6, column b: there is no particle 9; there are 4, from 0 on
-  line 7: particles 1 and 0 are linked again; they are already at line 2
+  line 7: particles 1 and 0 are linked again, after line 2: remove one of the two
   line 8, column b: `x` is not the id of a particle
   line 8, column rest: -3 is not a finite number, zero or above
   line 9: 4 cells, but 3 columns

@@ -52,13 +52,13 @@ error: particle 1 is linked to itself
 10 | pairs = [[0, 4], [1, 1], [0, 1, 2], [2], 3, [-1, 2], [0.5, 1], ["0", 1]]
    |                  ^^^^^^
 
-error: `pairs` must be two ids, not a list of 3
+error: `pairs` must be two ids, not a list of length 3
   --> a.toml:10:26
    |
 10 | pairs = [[0, 4], [1, 1], [0, 1, 2], [2], 3, [-1, 2], [0.5, 1], ["0", 1]]
    |                          ^^^^^^^^^
 
-error: `pairs` must be two ids, not a list of 1
+error: `pairs` must be two ids, not a list of length 1
   --> a.toml:10:37
    |
 10 | pairs = [[0, 4], [1, 1], [0, 1, 2], [2], 3, [-1, 2], [0.5, 1], ["0", 1]]

@@ -41,11 +41,13 @@ pub(crate) fn report(text: &str, overrides: &[&str]) -> Diagnostics {
     load(text, overrides).err().expect("the scene is at fault")
 }
 
-/// The whole report, letter by letter; `{forces}` and `{integrators}` stand for the names in those registers.
+/// The whole report, letter by letter; `{forces}`, `{shapes}` and `{integrators}` stand for the names in those registers.
 pub(crate) fn assert_report(text: &str, overrides: &[&str], expected: &str) {
     let names = |list: Vec<&str>| list.iter().map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", ");
     let forces = names(motes::forces::entries().map(|entry| entry.name).collect());
     let integrators = names(motes::integrators::INTEGRATORS.iter().map(|entry| entry.name).collect());
+    let shapes = names(motes::shapes::SHAPES.iter().map(|shape| shape.name).collect());
+    let expected = expected.replace("{shapes}", &shapes);
     let expected = expected.replace("{forces}", &forces).replace("{integrators}", &integrators);
     let report = report(text, overrides).to_string();
     assert!(report == expected, "expected:\n{expected}\n\nfound:\n{report}");

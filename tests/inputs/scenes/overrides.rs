@@ -37,7 +37,7 @@ bodies = [{ position = [0, 0, 0] }]
    |
    | --set simulation.dtt=0.1
    |                  ^^^ did you mean `dt`?
-   = known here: `steps`, `until`, `integrator`, `dt`, `adaptive`, `dt_min`, `dt_before`, `cfl`
+   = known here: `steps`, `until`, `integrator`, `dt`, `adaptive`, `dt_min`, `dt_before`, `cfl`, `precision`
 
 a.toml: 1 error",
     );
@@ -117,7 +117,7 @@ bodies = [{ position = [0, 0, 0] }]
 kind = "gravity"
 "#,
         &["force.1.g=2"],
-        "error: there is no force.1
+        "error: there is no `force.1`
   --> the command line
    |
    | --set force.1.g=2

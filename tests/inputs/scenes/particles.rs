@@ -38,7 +38,7 @@ count = 4_000_000_000
   --> a.toml:6:9
    |
  6 | count = 4_000_000_000
-   |         ^^^^^^^^^^^^^ there is room for 100000000
+   |         ^^^^^^^^^^^^^ the maximum is 100000000
 
 a.toml: 1 error",
     );
@@ -77,7 +77,7 @@ kind = "uniform"
 acceleration = [0, -9.81]
 "#,
         &[],
-        "error: `acceleration` must be three numbers, as in [0, 0, 1], not a list of 2
+        "error: `acceleration` must be three numbers, as in [0, 0, 1], not a list of length 2
   --> a.toml:8:16
    |
  8 | acceleration = [0, -9.81]
@@ -166,7 +166,7 @@ steps = 10
 bodies = []
 ",
         &[],
-        "error: there are no particles in it
+        "error: this entry has no particles
   --> a.toml:5:10
    |
  5 | bodies = []
@@ -186,7 +186,7 @@ steps = 10
 bodies = [[1, 0, 0]]
 ",
         &[],
-        "error: `bodies` must be a list of tables, as in [{ position = [1, 0, 0] }], not a list of 3
+        "error: `bodies` must be a list of tables, as in [{ position = [1, 0, 0] }], not a list of length 3
   --> a.toml:5:11
    |
  5 | bodies = [[1, 0, 0]]

@@ -105,6 +105,7 @@ fn defaults_are_filled_in() {
 [simulation]
 dt = 0.1
 steps = 10
+precision = "single"
 integrator = "leapfrog"
 
 [solver]

@@ -86,7 +86,7 @@ fn duplicate_key() {
   --> a.toml:4:1
    |
  4 | dt = 0.2
-   | ^^ the second one
+   | ^^ remove one of them
 
 a.toml: 1 error",
     );
@@ -101,13 +101,13 @@ fn duplicate_section() {
   --> a.toml:6:2
    |
  6 | [simulation]
-   |  ^^^^^^^^^^ the second one
+   |  ^^^^^^^^^^ remove one of them
 
 error: `dt` is given twice
   --> a.toml:7:1
    |
  7 | dt = 0.2
-   | ^^ the second one
+   | ^^ remove one of them
 
 a.toml: 2 errors",
     );

@@ -108,7 +108,7 @@ count = 5
    |
  5 | shape = "plumer"
    |         ^^^^^^^^ did you mean "plummer"?
-   = known: `plummer`, `hernquist`, `sphere`, `disk`, `clusters`, `lattice`, `crystal`, `block`, `drop`, `tank`, `wall`, `box`, `spray`, `chain`, `cloth`, `jelly`, `hair`
+   = known: {shapes}
 
 a.toml: 1 error"#,
     );

@@ -24,7 +24,7 @@ fn settings(name: &str, values: &[(&'static str, f64)]) -> Settings {
     let numbers = [("columns", 6.0), ("rows", 5.0), ("strands", 4.0)];
     // What has no spacing or density by itself.
     let lacks = |(name, _): &(&str, f64)| known(name).is_some_and(|key| key.default.is_none());
-    let given = [("spacing", 0.5), ("density", 0.8)].into_iter().filter(lacks);
+    let given = [("spacing", 0.5), ("density", 0.8), ("radius", 0.25)].into_iter().filter(lacks);
     let numbers = numbers.into_iter().chain(given).chain(values.iter().copied());
     let all = vectors.into_iter().chain(numbers.map(|(key, x)| (key, Value::Number(x))));
     let fits = all.filter(|(key, _)| known(key).is_some());
@@ -86,6 +86,7 @@ fn the_bits_never_change() {
         ("wall", 0x1480_9eeb_19f6_fc90),
         ("box", 0x7947_fcef_4d33_1765),
         ("spray", 0x75af_c8eb_4624_d16b),
+        ("grains", 0x409e_763b_a3e1_bf71),
         ("chain", 0x3d71_07f6_cae9_b2ac),
         ("cloth", 0xb078_4cef_395b_0d7a),
         ("jelly", 0x2265_3ad0_bdde_76e3),

@@ -252,7 +252,7 @@ fn refusals<B: Backend>(make: impl Fn(&Setup) -> Simulation<B>) {
     for (new, words) in [
         (odd, "no column `charge`"),
         (named, "get ids of their own"),
-        (broken, "particle 1 has a number that is NaN"),
+        (broken, "particle 1 has the position [NaN"),
         (tied, "cannot be linked"),
     ] {
         let why = wait(simulation.spawn(&new)).expect_err("a refusal").to_string();

@@ -71,6 +71,6 @@ fn particles_that_do_not_fit() {
         let mut out = plane.clone();
         let vectors = if moving { out.velocity_mut() } else { out.position_mut() };
         vectors[2].z = 0.25;
-        refused(out, flat, &["particle 2", "0.25", "2 dimensions", "z = 0", "take 3"]);
+        refused(out, flat, &["particle 2", "0.25", "2 dimensions", "z = 0", "set dimensions = 3"]);
     }
 }

@@ -10,6 +10,7 @@
 mod baths;
 mod lammps;
 mod laws;
+mod minimum;
 mod nist;
 mod pressure;
 

@@ -93,6 +93,14 @@ fn gather(me: Particle, you: Particle, r: vec3f, sum: ptr<function, Sum>) {
 fn finish(me: Particle, sum: Sum) -> vec4f { return vec4f(sum.pull, sum.energy) / me.mass; }
 ";
 
+/// The same by its energy alone.
+const POTENTIAL: &str = "
+fn energy(me: Particle, you: Particle, distance: f32, inverse: f32) -> Energy {
+    let sixth = pow(inverse, 6.0);
+    return Energy(4.0 * sixth * (sixth - 1.0), 24.0 * sixth * (1.0 - 2.0 * sixth) / distance);
+}
+";
+
 /// On the device, however pairs are found, and for a user's law: the same, to some roundings of 343 sums of 60 pairs.
 #[test]
 fn every_visit_and_own_laws_have_the_same_virial() {
@@ -102,6 +110,8 @@ fn every_visit_and_own_laws_have_the_same_virial() {
     let list = |range| Over::List { range, skin: Some(0.2), slots: 0 };
     let own = |over| -> Box<dyn Component> { Box::new(Custom::new("own", "own.wgsl", OWN, over)) };
     let mut laws: Vec<Box<dyn Component>> = vec![own(list(2.5)), own(Over::Near { range: 2.5, of: None })];
+    let potential = |over| -> Box<dyn Component> { Box::new(Custom::new("own", "own.wgsl", POTENTIAL, over)) };
+    laws.extend([list(2.5), Over::Within { range: 2.5 }].map(potential));
     laws.extend(["within", "near", "list", "auto"].map(|over| cut(2.5, "cut", over)));
     let mut all = Vec::new();
     for law in laws {

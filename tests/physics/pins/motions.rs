@@ -21,7 +21,7 @@ fn what_makes_no_sense_is_refused() {
     refused(&|p| p.held[0].id = 0, "particle 0 is fixed twice");
     refused(&|p| p.held[0].by = Hold::Motion(5), "motion 5, but there are 5");
     refused(&|p| p.motions[1].name = "pulled".to_owned(), "two motions are called \"pulled\"");
-    refused(&|p| p.motions[1].keys.clear(), "has no keys");
+    refused(&|p| p.motions[1].keys.clear(), "has no keyframes");
     refused(&|p| p.motions[1].keys[1].time = -0.1, "times must increase");
     refused(&|p| p.motions[1].keys[1].turn.x = f64::NAN, "NaN");
     refused(&|p| p.motions[1].keys[2].time = 1e9, "steps away");

@@ -113,7 +113,7 @@ fn a_solid_leaves_its_thickness_free() {
         &[],
         0,
         &[
-            "5 particles start inside of an obstacle, or closer to it than its thickness, the first is particle 0",
+            "particles start inside of an obstacle, or closer to it than its thickness, the first is particle 0",
             "1.000e-2",
         ],
     );
@@ -179,7 +179,7 @@ fn emitters_go_by_the_fluid() {
     assert!(code == 0 && said.contains("emitter 1: ") && !said.contains("weigh "), "{said}");
     let heavy = "particles of emitter 1 have mass 2.0000e1, and density × spacing^2 of the force is 1.0000e1";
     says(&jet, &["emitter.0.density=2000"], 0, &[heavy, "[[emitter]] has density = 2000"]);
-    says(&jet, &["emitter.0.center=[0.3,0.4,0]"], 0, &["emitter 1 spawns particles where others are"]);
+    says(&jet, &["emitter.0.center=[0.3,0.4,0]"], 0, &["emitter 1 spawns particles where other particles are"]);
 }
 
 #[test]

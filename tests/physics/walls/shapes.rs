@@ -111,8 +111,8 @@ fn boxes_and_spheres_are_hollow() {
         assert!(nearest(&ball) > 0.75 * d, "{}", nearest(&ball));
     }
     for (surface, size, words) in [
-        ("sphere", vector(1.0, 2.0, 1.0), "as large along all axes"),
-        ("plane", vector(0.0, 1.0, 0.0), "a plane is above 0 along x"),
+        ("sphere", vector(1.0, 2.0, 1.0), "the same size along all axes"),
+        ("plane", vector(0.0, 1.0, 0.0), "a plane has a size above 0 along x"),
         ("box", vector(1.0, 0.0, 1.0), "sides must be above 0"),
         ("mesh", vector(1.0, 1.0, 1.0), "name the file"),
     ] {

@@ -1,0 +1,111 @@
+//! Every component and every integrator of the registers runs by the command, on what it acts on: the whole way from a scene to files.
+
+use std::path::Path;
+use std::process::{Command, Stdio};
+
+use motes::forces;
+use motes::settings::{Key, Kind, Value};
+
+/// Two steps of a scene: tables of states, a picture and energies. The words of the program where it fails.
+fn run(scene: &str) -> Result<(), String> {
+    let folder = tempfile::tempdir().expect("a folder");
+    let (file, out) = (folder.path().join("scene.toml"), folder.path().join("out"));
+    std::fs::write(&file, scene).expect("a scene");
+    let mut command = Command::new(env!("CARGO_BIN_EXE_motes"));
+    command.arg("run").arg(&file).arg("--output").arg(&out).args(["--steps", "2"]);
+    let output = command.stdin(Stdio::null()).output().expect("it starts");
+    let words = String::from_utf8_lossy(&output.stderr).into_owned();
+    if output.status.code() != Some(0) {
+        return Err(format!("{:?}: {words}", output.status.code()));
+    }
+    let last = last_table(&out);
+    // The state of each particle, and nothing that is no number.
+    let (rows, spoiled) = (last.lines().count() - 1, ["NaN", "nan", "inf"].iter().any(|word| last.contains(word)));
+    if rows < 2 || spoiled { Err(format!("{rows} rows:\n{last}")) } else { Ok(()) }
+}
+
+fn last_table(folder: &Path) -> String {
+    let files = std::fs::read_dir(folder).expect("results").map(|entry| entry.expect("a file").path());
+    let mut tables: Vec<_> = files
+        .filter(|file| file.file_name().is_some_and(|name| name.to_string_lossy().starts_with("snapshot")))
+        .filter(|file| file.extension().is_some_and(|ending| ending == "csv"))
+        .collect();
+    tables.sort();
+    assert!(tables.len() > 1, "{tables:?}");
+    std::fs::read_to_string(tables.last().expect("one")).expect("a table")
+}
+
+/// A value for a key that has no default.
+fn given(key: &Key) -> String {
+    match key.kind {
+        Kind::Pairs(keys) => {
+            let values: Vec<_> = keys.iter().map(|key| format!("{} = 0.5", key.name)).collect();
+            format!("[{{ species = [0, 0], {} }}]", values.join(", "))
+        }
+        Kind::Vector | Kind::Direction => "[0.2, 0.6, -0.4]".to_owned(),
+        Kind::Count | Kind::Whole => "3".to_owned(),
+        _ => "0.5".to_owned(),
+    }
+}
+
+/// The particles on which a component acts, and what else it needs.
+fn particles(name: &str) -> &'static str {
+    match name {
+        "contact" | "contact_wall" => "[[particles]]\nshape = \"grains\"\nsize = [1, 1, 1]\nradius = 0.1\n",
+        "rod" => "[[particles]]\nshape = \"chain\"\ncount = 5\nto = [1, 0, 0]\ntie = \"rod\"\n",
+        "spring" | "joint" | "air" | "strain_limit" | "tear" => {
+            "[[particles]]\nshape = \"cloth\"\ncolumns = 6\nrows = 6\nspacing = 0.1\nmass = 0.01\nstretch = 20\n[[force]]\nkind = \"uniform\"\n"
+        }
+        "fluid" => "[[particles]]\nshape = \"block\"\nsize = [3, 3, 3]\n",
+        // Velocities in the plane.
+        "vicsek" => {
+            "[box]\nsize = [2, 2, 0]\ndimensions = 2\n[[particles]]\nshape = \"box\"\ncount = 40\nsize = [2, 2, 0]\nspeed = 0.5\n"
+        }
+        "born_mayer" => "[[particles]]\nshape = \"lattice\"\nsize = [3, 3, 3]\nspacing = 1\ncharge = 1\n",
+        _ => "[box]\nsize = [3, 3, 3]\n[[particles]]\nshape = \"box\"\ncount = 40\nsize = [2, 2, 2]\nspeed = 0.5\n",
+    }
+}
+
+const END: &str = "[output]\nevery = 1\nformats = [\"csv\", \"png\"]\n[picture]\nwidth = 64\nheight = 48\n";
+
+#[test]
+fn every_component_runs_by_the_command() {
+    let mut faults = Vec::new();
+    let mut count = 0;
+    for entry in forces::entries() {
+        let keys: Vec<_> = entry.keys.iter().filter(|key| key.default.is_none()).collect();
+        let mut keys: String =
+            keys.iter().fold(String::new(), |all, key| all + &format!("{} = {}\n", key.name, given(key)));
+        // Zero is no speed of sound.
+        keys.extend((entry.name == "fluid").then_some("sound_speed = 20\n"));
+        let scene = format!(
+            "[simulation]\ndt = 0.0001\nsteps = 2\n{}[[force]]\nkind = \"{}\"\n{keys}{END}",
+            particles(entry.name),
+            entry.name
+        );
+        count += 1;
+        if let Err(why) = run(&scene) {
+            faults.push(format!("{}: {why}\n{scene}", entry.name));
+        }
+    }
+    assert!(count > 30 && faults.is_empty(), "{count} components:\n{}", faults.join("\n"));
+}
+
+#[test]
+fn every_integrator_runs_by_the_command() {
+    let mut faults = Vec::new();
+    for entry in motes::integrators::INTEGRATORS {
+        let words: Vec<_> =
+            entry.keys.iter().filter(|key| matches!(key.default, None | Some(Value::Text(_)))).collect();
+        assert!(words.iter().all(|key| key.default.is_some()), "{}: {words:?}", entry.name);
+        let scene = format!(
+            "[simulation]\ndt = 0.0001\nsteps = 2\nintegrator = \"{}\"\n{}[[force]]\nkind = \"gravity\"\nsoftening = 0.1\n{END}",
+            entry.name,
+            particles("gravity")
+        );
+        if let Err(why) = run(&scene) {
+            faults.push(format!("{}: {why}\n{scene}", entry.name));
+        }
+    }
+    assert!(faults.is_empty(), "{}", faults.join("\n"));
+}
