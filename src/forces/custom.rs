@@ -2,9 +2,11 @@
 
 use std::sync::Arc;
 
-use super::{Change, Component, Law, Over};
+use super::{Change, Component, Law, Over, Properties};
+use crate::component::Largest;
 use crate::error::Error;
-use crate::kernel::{ACCELERATION, Name, Scalar, Source, Table};
+use crate::grains;
+use crate::kernel::{ACCELERATION, Column, Name, Scalar, Source, Table};
 use crate::settings::{Value, unknown};
 use crate::visit::PairTable;
 
@@ -27,6 +29,8 @@ pub struct Custom {
     pub tables: Vec<Table>,
     /// The columns that it writes: see [`Law::into`].
     pub into: Vec<Name>,
+    /// Whether its particles are grains, as those of `contact`: it declares [their columns](crate::grains::columns), and torques turn them.
+    pub grains: bool,
 }
 
 impl Custom {
@@ -35,7 +39,7 @@ impl Custom {
     pub fn new(name: &str, file: &str, wgsl: &str, over: Over) -> Self {
         let (name, wgsl, file) = (name.to_owned(), wgsl.to_owned(), file.to_owned());
         let (params, pairs, tables) = (Vec::new(), None, Vec::new());
-        Self { name, over, wgsl, file, params, pairs, tables, into: vec![ACCELERATION.name.into()] }
+        Self { name, over, wgsl, file, params, pairs, tables, into: vec![ACCELERATION.name.into()], grains: false }
     }
 }
 
@@ -91,6 +95,17 @@ impl Component for Custom {
             Change::Value(value) => self.with_param(name, value)?,
             Change::Table(words) => self.with_table(name, words)?,
         }))
+    }
+    fn columns(&self) -> Vec<Column> {
+        if self.grains { grains::columns() } else { Vec::new() }
+    }
+    fn properties(&self) -> Properties {
+        let Over::List { range, .. } = self.over else {
+            return Properties { turns: self.grains, ..Properties::default() };
+        };
+        let why = "its range is the largest sum of two radii at least";
+        let largest = self.grains.then_some(Largest { column: "radius", value: 0.5 * range, why });
+        Properties { turns: self.grains, largest: largest.into_iter().collect(), ..Properties::default() }
     }
     fn laws(&self) -> Vec<Law> {
         let params = self.params.iter().map(|(name, value)| (name.clone(), scalar(value))).collect();

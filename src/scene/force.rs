@@ -18,8 +18,21 @@ use super::tree::{Data, Entry};
 use super::value;
 use super::walk::{self, Table};
 
-pub(super) const OWN: &[&str] =
-    &["kind", "wgsl", "over", "range", "skin", "slots", "neighbors", "theta", "params", "pairs", "tables", "into"];
+pub(super) const OWN: &[&str] = &[
+    "kind",
+    "wgsl",
+    "over",
+    "range",
+    "skin",
+    "slots",
+    "neighbors",
+    "theta",
+    "params",
+    "pairs",
+    "tables",
+    "into",
+    "grains",
+];
 
 /// A force as the scene gives it.
 pub(super) enum Chosen {
@@ -51,6 +64,7 @@ fn read_own(table: &Table<'_>, wgsl: &Entry, files: &Files, report: &mut Report)
     let pairs = table.get("pairs").and_then(|entry| pairs::of_any_names(&entry.node, report));
     let tables = table.get("tables").map_or_else(Vec::new, |entry| tables(entry, report));
     let into = table.get("into").map_or_else(|| vec!["acceleration".into()], |entry| into(entry, report));
+    let grains = table.get("grains").is_some_and(|entry| flag(entry, report));
     let name = value::text(&wgsl.node, "wgsl", "the name of a file", report)?;
     let text = files
         .locate("wgsl", name, &wgsl.node.place)
@@ -69,6 +83,7 @@ fn read_own(table: &Table<'_>, wgsl: &Entry, files: &Files, report: &mut Report)
                     pairs,
                     tables,
                     into,
+                    grains,
                 }),
                 path,
             })
@@ -171,6 +186,10 @@ fn optional(table: &Table<'_>, key: &str, kind: Kind, report: &mut Report) -> Op
     }
 }
 
+fn flag(entry: &Entry, report: &mut Report) -> bool {
+    value::read(&entry.node, &entry.key, Kind::Flag, report) == Some(Value::Flag(true))
+}
+
 fn params(entry: &Entry, report: &mut Report) -> Vec<(String, Value)> {
     let Data::Table(list) = &entry.node.data else {
         value::refuse::<()>(&entry.node, "params", "a table, as in { strength = 2.0 }", report);
@@ -264,6 +283,9 @@ impl Chosen {
                     law.params.iter().map(|(k, v)| format!("{} = {}", resolved::bare(k), resolved::value(v))).collect();
                 out.line("params", &format!("{{ {} }}", params.join(", ")));
                 own_tables(law, out);
+                if law.grains {
+                    out.line("grains", "true");
+                }
             }
         }
     }

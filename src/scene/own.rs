@@ -82,6 +82,11 @@ pub(super) const FORCE: &[Own] = &[
     own("pairs", "none", "wgsl: parameters of pairs of species"),
     own("tables", "none", "wgsl: tables of numbers, by the names under which the file binds them"),
     own("into", "[\"acceleration\"]", "wgsl: the columns that it writes"),
+    own(
+        "grains",
+        "false",
+        "wgsl: whether its particles are grains with radius, inertia, orientation, angular_velocity and torque, as those of `contact`",
+    ),
 ];
 pub(super) const OUTPUT: &[Own] = &[
     own("every", "a tenth of steps", "the number of steps between written states"),

@@ -9,8 +9,9 @@ use super::{Plans, Setup, Simulation, pair_history};
 use crate::error::Error;
 use crate::forces::{Law, Over, Problem};
 use crate::kernel::{Array, Backend, Element, Kernel, ListShape, Neighbors};
+use crate::life::Life;
 use crate::neighbors::{Cells, LIST, LIST_STATE, LIST_STATE_WORDS};
-use crate::state::{KEPT_NEIGHBORS, KEPT_ROOM};
+use crate::state::{KEPT_NEIGHBORS, KEPT_ROOM, State};
 use crate::visit;
 
 /// The same problem with the neighbour counts that laws require, and with a list that has room for 1.5 times the largest count at the start.
@@ -27,8 +28,7 @@ pub(super) fn counted(setup: &Setup, problem: Problem) -> Result<Problem, Error>
     let Some(shape) = visit::shared_list(&laws, &problem)? else { return Ok(problem) };
     let places = places();
     let most = Cells::new(&places, setup.bounds, shape.reach())?.most();
-    // Pending particles are not counted: there is at least as much room as where no count is known.
-    let most = if problem.has_inactive { most.max(visit::UNCOUNTED) } else { most };
+    let most = if has_pending(&setup.state) { most.max(expected(setup, shape.reach())) } else { most };
     let count = problem.capacity;
     let shape = shape.with_room(most, count);
     // A simulation that grows sets its capacity. A state holds no capacity: that depends on when the list was checked.
@@ -38,6 +38,30 @@ pub(super) fn counted(setup: &Setup, problem: Problem) -> Result<Problem, Error>
     let remembered = u32::try_from(pair_history::longest(&setup.state)).unwrap_or(u32::MAX);
     let capacity = made.max(remembered).div_ceil(4).saturating_mul(4);
     Ok(problem.listed(Some(ListShape { capacity, ..shape })))
+}
+
+/// The column by which grains touch.
+const RADIUS: &str = "radius";
+
+/// Whether particles may become active, which no count at the start contains.
+fn has_pending(state: &State) -> bool {
+    !state.births.is_empty() || state.capacity.is_some() || state.life().contains(&Life::Pending)
+}
+
+/// The part of space that spheres fill at most in a heap, and that disks fill in a plane.
+const FILLED: [f64; 2] = [0.64, 0.84];
+
+/// The number of neighbours within `reach` for which there is room although they are not counted: of grains as many of the smallest as fill
+/// it, of others [`UNCOUNTED`](visit::UNCOUNTED).
+fn expected(setup: &Setup, reach: f64) -> u32 {
+    let touch = setup.forces.iter().any(|force| force.properties().largest.iter().any(|one| one.column == RADIUS));
+    let radii = setup.state.scalar(RADIUS).filter(|_| touch).unwrap_or_default();
+    let smallest = radii.iter().copied().filter(|radius| *radius > 0.0).fold(f64::INFINITY, f64::min);
+    let ratio = reach / smallest;
+    let fit = if setup.bounds.dimensions == 2 { FILLED[1] * ratio.powi(2) } else { FILLED[0] * ratio.powi(3) };
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "saturates")]
+    let fit = fit.ceil() as u32;
+    if smallest.is_finite() { fit.min(visit::UNCOUNTED) } else { visit::UNCOUNTED }
 }
 
 /// The neighbour counts within the ranges of laws that choose their search by it. A run that continues uses the counts of its start, and

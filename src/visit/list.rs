@@ -15,7 +15,7 @@ use crate::neighbors::{HISTORY, LIST, List};
 const ROWS: u32 = 1 << 20;
 /// The default skin, as a part of the range.
 const SKIN: f64 = 0.2;
-/// The capacity for neighbours where they have not been counted.
+/// The number of neighbours for which there is room where they have not been counted.
 pub const UNCOUNTED: u32 = 128;
 
 /// The list that laws share, if any is over one: it reaches as far as the longest range and skin.

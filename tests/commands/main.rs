@@ -18,6 +18,7 @@ mod far;
 mod film;
 mod json;
 mod messages;
+mod own_contact;
 mod process;
 mod purity;
 mod stiff;

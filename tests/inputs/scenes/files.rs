@@ -213,6 +213,17 @@ fn a_law_of_ones_own_is_read_from_its_file() {
         );
     }
 
+    let heap =
+        "[simulation]\ndt = 0.1\nsteps = 10\n[[particles]]\nshape = \"grains\"\nsize = [1, 1, 1]\nradius = 0.1\n";
+    let scene = format!("{heap}[[force]]\nwgsl = \"swirl.wgsl\"\nover = \"list\"\nrange = 0.3\ngrains = true\n");
+    for text in [scene.clone(), scene.replace("range = 0.3", "range = 0.1")] {
+        let files: &[(&str, &[u8])] = &[("scene.toml", text.as_bytes()), ("swirl.wgsl", b"fn gather() {}")];
+        let made = report_in(files, &Options::default()).expect("a good scene");
+        assert!(made.forces[0].columns().iter().any(|column| column.name == "torque"));
+        assert!(made.resolved.contains("\ngrains = true\n"), "{}", made.resolved);
+        assert_eq!(made.forces[0].properties().largest[0].value, if text == scene { 0.15 } else { 0.05 });
+    }
+
     let wrong =
         format!("{SMALL}[[force]]\nwgsl = \"swirl.wgsl\"\nover = \"all_of_it\"\nparams = {{ strength = \"2\" }}\n");
     let (report, code) = fault(&[("scene.toml", wrong.as_bytes()), ("swirl.wgsl", b"\xff")]);
