@@ -59,6 +59,10 @@ fn refuse(root: &Table) -> Result<(), Error> {
             return refused("the scene names fixed particles by their ids (`fixed`)");
         }
     }
+    let kind = |table: &Table| table.get("kind").and_then(Value::as_str).unwrap_or_default().to_owned();
+    if tables(root, "force").any(|table| ["contact", "contact_wall"].contains(&kind(table).as_str())) {
+        return refused("the scene has grains, whose radius its walls and its time step fit");
+    }
     if tables(root, "force").any(|table| table.contains_key("pairs")) {
         return refused("the scene has coefficients of pairs of species (`pairs`), as molecules have");
     }

@@ -64,4 +64,6 @@ pub const SCENES: &[Builtin] = scenes![
     "vapour",
     "pile",
     "hopper",
+    "column_collapse",
+    "drum",
 ];

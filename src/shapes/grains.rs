@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 
 use super::build::{CENTER, Reader, SEED, VELOCITY};
 use super::random::Random;
@@ -52,12 +52,24 @@ const KEYS: &[Key] = &[
 
 /// The distance of the places of the lattice.
 fn spacing(settings: &Settings) -> f64 {
-    settings.number("radius") * (1.0 + settings.number("spread")) * (2.0 + settings.number("gap"))
+    largest(settings) * (2.0 + settings.number("gap"))
+}
+
+/// The radius of the largest sphere.
+fn largest(settings: &Settings) -> f64 {
+    settings.number("radius") * (1.0 + settings.number("spread"))
 }
 
 fn numbers(settings: &Settings) -> DVec3 {
-    // A side that is a whole number of spacings is not short of one by rounding.
-    (settings.vector("size") / spacing(settings) + 1e-9).floor().max(DVec3::ZERO)
+    let size = settings.vector("size");
+    // A side that is a whole number of spacings is not short of one by rounding; one as long as the largest sphere is wide has room for it.
+    let single = (0.5 * size / largest(settings) + 1e-9).floor().clamp(DVec3::ZERO, DVec3::ONE);
+    (size / spacing(settings) + 1e-9).floor().max(single)
+}
+
+/// Whether a place lies in an ellipse of such half axes, of which one may be 0.
+fn in_ellipse(place: DVec2, half: DVec2, tiny: f64) -> bool {
+    (place / (half + tiny)).length_squared() <= 1.0 + 1e-9
 }
 
 fn amount(settings: &Settings) -> Amount {
@@ -71,7 +83,10 @@ fn build(settings: &Settings) -> Result<State, Error> {
     let (gap, center, velocity) = (reader.not_negative("gap")?, reader.vector("center")?, reader.vector("velocity")?);
     let (size, step, numbers) = (reader.vector("size")?, spacing(settings), numbers(settings));
     reader.fits(numbers.element_product())?;
-    let largest = radius * (1.0 + spread);
+    let largest = largest(settings);
+    // Displaced within the gap, and no farther than the sides.
+    let reach =
+        (0.5 * size - 0.5 * step * (numbers - 1.0) - largest).clamp(DVec3::ZERO, DVec3::splat(0.5 * gap * largest));
     let round = settings.flag("cylinder");
     let mut random = Random::new(settings.whole("seed"));
     let (mut state, mut radii) = (State::default(), Vec::new());
@@ -83,11 +98,11 @@ fn build(settings: &Settings) -> Result<State, Error> {
     for (z, y, x) in (0..nz).flat_map(|z| (0..ny).flat_map(move |y| (0..nx).map(move |x| (z, y, x)))) {
         let mut between = |most: f64| random.between(-most, most);
         let r = radius * (1.0 + between(spread));
-        let off = DVec3::new(between(1.0), between(1.0), between(1.0)) * (0.5 * gap * largest);
+        let off = DVec3::new(between(1.0), between(1.0), between(1.0)) * reach;
         let cell = DVec3::new(f64::from(x), f64::from(y), f64::from(z)) + 0.5;
         let place = step * (cell - 0.5 * numbers) + off;
         let half = 0.5 * size.truncate() - largest;
-        if !round || (place.truncate() / half).length_squared() <= 1.0 {
+        if !round || in_ellipse(place.truncate(), half, 1e-9 * largest) {
             state.push(place + center, velocity, 4.0 / 3.0 * PI * r * r * r * density, r);
             radii.push(r);
         }
@@ -106,6 +121,24 @@ fn build(settings: &Settings) -> Result<State, Error> {
 mod tests {
     use super::*;
     use crate::kernel::Bounds;
+
+    /// A tube as wide as a sphere holds a row of them on its axis; a narrower one is refused.
+    #[test]
+    fn tubes_as_wide_as_a_sphere_hold_a_row() {
+        let tube = |width: f64| {
+            let more =
+                [("size", DVec3::new(width, width, 0.1).into()), ("radius", 0.005.into()), ("cylinder", true.into())];
+            build(&more.into_iter().fold(Settings::defaults(KEYS), |all, (key, value)| all.with(key, value)))
+        };
+        let row = tube(0.01).expect("a row");
+        assert!(row.len() == 9 && row.position().iter().all(|x| x.truncate().length() < 1e-12), "{}", row.len());
+        let radii = row.scalar("radius").expect("radii");
+        assert!(grains::touching(row.position(), radii, &Bounds::default(), |_| true).is_empty());
+        let narrow = tube(0.0099).expect_err("too narrow").to_string();
+        assert!(narrow.contains("no sphere of radius 0.005 has room"), "{narrow}");
+        let wider = tube(0.0104).expect("a row");
+        assert!(wider.len() == 9 && wider.position().iter().any(|x| x.truncate().length() > 1e-5));
+    }
 
     /// No two grains touch, however they are displaced; radii are spread as asked for, and masses and moments are those of spheres.
     #[test]

@@ -148,6 +148,8 @@ fn scenes_scale_by_one_number() {
         "vapour",
         "pile",
         "hopper",
+        "column_collapse",
+        "drum",
         "stiff",
         "spring_chain",
         "poiseuille",

@@ -29,6 +29,16 @@ pub const SMALLER: &[(&str, &[&str])] = &[
     ("vapour", &["particles.0.cells=[3, 3, 3]"]),
     ("pile", FEW_GRAINS.split_at(3).0),
     ("hopper", FEW_GRAINS),
+    ("column_collapse", FEW_BEADS),
+    ("drum", &["particles.0.size=[0.03, 0.03, 0.04]", "particles.1.size=[0.03, 0.03, 0.04]"]),
+];
+
+/// Layers of a few beads, across the whole channel.
+const FEW_BEADS: &[&str] = &[
+    "particles.0.size=[0.05, 0.06, 0.03]",
+    "particles.1.size=[0.05, 0.06, 0.03]",
+    "particles.2.size=[0.05, 0.06, 0.03]",
+    "particles.3.size=[0.05, 0.06, 0.03]",
 ];
 
 /// Layers of a few grains.

@@ -28,7 +28,19 @@ fn every_one_loads_and_says_what_to_see() {
     let tied = ["pendulum", "double_pendulum", "spring_chain", "stiff", "cloth", "flag", "tear", "jelly", "hair"];
     let fluids =
         ["dam_break", "dam_break_2d", "wave_tank", "droplet", "two_drops", "hydrostatic", "taylor_green", "poiseuille"];
-    let others = ["flock", "fish_school", "vicsek", "murmuration", "salt", "argon", "vapour", "pile", "hopper"];
+    let others = [
+        "flock",
+        "fish_school",
+        "vicsek",
+        "murmuration",
+        "salt",
+        "argon",
+        "vapour",
+        "pile",
+        "hopper",
+        "column_collapse",
+        "drum",
+    ];
     assert_eq!(names, [&bodies[..], &tied, &fluids, &others].concat());
     for builtin in SCENES {
         let scene = self::builtin(builtin.name);

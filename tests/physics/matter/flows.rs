@@ -130,6 +130,8 @@ fn hoppers_flow_by_beverloos_law() {
     let rate = |diameter: f64, friction: f64| {
         let [early, late] = rates(diameter, friction);
         println!("D = {diameter}, friction {friction}: {early} {late}, by the law {}", law(diameter, 1.4));
+        // Seven hundredths of a second pass 20 to 70 grains, whose number trembles by its root; it does not fall with the height above.
+        assert!(friction == 0.0 || (late / early - 1.0).abs() < 0.35, "{early} {late}");
         0.5 * (early + late)
     };
     let narrow = rate(0.05, 0.5);
