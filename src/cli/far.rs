@@ -9,7 +9,7 @@ use super::args::CompareArgs;
 use super::compare::load;
 use super::failure::Failure;
 
-/// The number of particles whose forces are compared with direct summation.
+/// The number of particles at which forces are compared with direct summation.
 const TARGETS: usize = 1000;
 
 /// Errors of the tree forces of a scene in its initial state.

@@ -1,6 +1,7 @@
 //! A component of a simulation: its declarations and its kernels in a step. Everything else is derived from them.
 
 pub(crate) mod bath;
+mod each;
 pub(crate) mod keys;
 pub(crate) mod kind;
 mod misnamed;
@@ -8,6 +9,7 @@ mod register;
 mod registered;
 pub(crate) mod thermostat;
 
+pub(crate) use each::each;
 pub(crate) use misnamed::misnamed;
 pub(crate) use register::components;
 pub(crate) use registered::registered;

@@ -4,11 +4,9 @@ use std::sync::Arc;
 
 use glam::{DVec4, Vec4};
 
+use super::each;
 use crate::error::Error;
-use crate::kernel::{
-    Column, Field, Host, Kernel, Kind as Element, Name, POSITION, Pass, Problem, Reference, Shader, Shape, Source,
-    VELOCITY,
-};
+use crate::kernel::{Column, Field, Host, Kernel, Kind as Element, Name, POSITION, Problem, Shape, VELOCITY};
 use crate::primitives::{Items, Operation, reduce};
 use crate::settings::{Key, Kind, Value};
 
@@ -69,15 +67,6 @@ pub(crate) fn measured(problem: &Problem) -> Result<Vec<Kernel>, Error> {
     Ok(vec![kinetic(problem)?, sum])
 }
 
-/// A kernel of one invocation for each particle, with the information which ones are free.
-fn each(name: &str, file: Source, problem: &Problem, reference: Reference) -> Result<Kernel, Error> {
-    let (holding, tables) = problem.holding();
-    let shader = Shader::join(&[crate::shader!("world.wgsl"), holding, file])?;
-    let passes = vec![Pass::new(shader, problem.capacity)];
-    let sizes = vec![(CHANGE.name.into(), 1)];
-    Ok(Kernel { name: name.to_owned(), passes, reference: Some(reference), sizes, scratch: Vec::new(), tables })
-}
-
 fn kinetic(problem: &Problem) -> Result<Kernel, Error> {
     let of = problem.clone();
     let reference = move |host: &Host| {
@@ -108,5 +97,6 @@ pub(crate) fn scale(problem: &Problem) -> Result<Kernel, Error> {
         }
         Ok(())
     };
-    each("thermostat scale", crate::shader!("thermostat/scale.wgsl"), problem, Arc::new(reference))
+    let kernel = each("thermostat scale", crate::shader!("thermostat/scale.wgsl"), problem, Arc::new(reference))?;
+    Ok(Kernel { sizes: vec![(CHANGE.name.into(), 1)], ..kernel })
 }

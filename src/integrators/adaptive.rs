@@ -2,7 +2,7 @@
 //! stay bounded, may drift (Skeel & Gear 1992).
 
 use super::{Integrator, Step};
-use crate::kernel::{AdaptiveStep, Column, Precision};
+use crate::kernel::AdaptiveStep;
 
 /// Another integrator, with steps as long as forces allow.
 #[derive(Clone)]
@@ -14,35 +14,23 @@ pub struct Adaptive {
 }
 
 impl Integrator for Adaptive {
-    fn name(&self) -> &'static str {
-        self.integrator.name()
+    fn wrapped(&self) -> Option<&dyn Integrator> {
+        Some(self.integrator.as_ref())
     }
     fn order(&self) -> u32 {
         self.integrator.order()
     }
-    fn order_with_velocity(&self) -> u32 {
-        self.integrator.order_with_velocity()
+    fn is_symplectic(&self) -> bool {
+        false
     }
-    fn is_implicit(&self) -> bool {
-        self.integrator.is_implicit()
+    fn damps_at_any_step(&self) -> bool {
+        false
     }
     fn adaptive_step(&self) -> Option<AdaptiveStep> {
         Some(self.adaptive_step)
     }
-    fn fixed_step(&self) -> Option<&'static str> {
-        self.integrator.fixed_step()
-    }
     fn in_fixed_steps(&self) -> Box<dyn Integrator> {
         self.integrator.in_fixed_steps()
-    }
-    fn precision(&self) -> Precision {
-        self.integrator.precision()
-    }
-    fn columns(&self) -> Vec<Column> {
-        self.integrator.columns()
-    }
-    fn start(&self, s: &mut Step) {
-        self.integrator.start(s);
     }
     fn step(&self, s: &mut Step) {
         self.integrator.step(s);

@@ -21,36 +21,44 @@ use crate::settings::{Key, Settings};
 
 /// A method that advances particles by one step.
 pub trait Integrator: Copied + Send + Sync {
+    /// The method that it wraps, if it is a way of using another one: what it does not say itself is answered by that.
+    fn wrapped(&self) -> Option<&dyn Integrator> {
+        None
+    }
     /// Its name in messages: that of scenes, if it has one.
     fn name(&self) -> &'static str {
-        "the integrator"
+        self.wrapped().map_or("the integrator", |method| method.name())
     }
     /// The order of convergence, for forces that depend on position and time alone.
     fn order(&self) -> u32;
     /// The order when a force depends on velocity too: 1 for symplectic integrators, whose kicks use the current velocity.
     fn order_with_velocity(&self) -> u32 {
-        1
+        self.wrapped().map_or(1, |method| method.order_with_velocity())
     }
     /// Whether it solves implicitly for laws with a Jacobian.
     fn is_implicit(&self) -> bool {
-        false
+        self.wrapped().is_some_and(|method| method.is_implicit())
     }
     /// Whether it is symplectic with a fixed step: the energy error stays bounded.
     fn is_symplectic(&self) -> bool {
-        false
+        self.wrapped().is_some_and(|method| method.is_symplectic())
     }
     /// Whether it damps fast modes at any step size.
     fn damps_at_any_step(&self) -> bool {
-        false
+        self.wrapped().is_some_and(|method| method.damps_at_any_step())
     }
     /// The reason for requiring a fixed time step, if it does.
     fn fixed_step(&self) -> Option<&'static str> {
-        self.is_implicit()
-            .then_some("their time step limits are those of explicit methods, and the integrator is implicit")
+        match self.wrapped() {
+            Some(method) => method.fixed_step(),
+            None => self
+                .is_implicit()
+                .then_some("their time step limits are those of explicit methods, and the integrator is implicit"),
+        }
     }
     /// The limits of its time step, where steps are adaptive.
     fn adaptive_step(&self) -> Option<AdaptiveStep> {
-        None
+        self.wrapped().and_then(|method| method.adaptive_step())
     }
     /// The same method with a fixed step.
     fn in_fixed_steps(&self) -> Box<dyn Integrator> {
@@ -58,18 +66,22 @@ pub trait Integrator: Copied + Send + Sync {
     }
     /// Whether forces at the end of a step are those of the positions there.
     fn ends_with_forces(&self) -> bool {
-        false
+        self.wrapped().is_some_and(|method| method.ends_with_forces())
     }
     /// The precision in which it keeps positions and velocities.
     fn precision(&self) -> Precision {
-        Precision::Single
+        self.wrapped().map_or(Precision::Single, |method| method.precision())
     }
     /// The columns that it needs in addition to those of all simulations: the data that a step passes to the next.
     fn columns(&self) -> Vec<Column> {
-        Vec::new()
+        self.wrapped().map_or_else(Vec::new, |method| method.columns())
     }
     /// Adds the kernels that run once, before the first step.
-    fn start(&self, _step: &mut Step) {}
+    fn start(&self, step: &mut Step) {
+        if let Some(method) = self.wrapped() {
+            method.start(step);
+        }
+    }
     /// One step.
     fn step(&self, step: &mut Step);
 }

@@ -2,7 +2,7 @@
 
 use super::{INTEGRATORS, Integrator, Step};
 use crate::error::Error;
-use crate::kernel::{AdaptiveStep, Column, Kernel, LOW_WORDS, Machine, Plan, Precision, Problem};
+use crate::kernel::{Kernel, LOW_WORDS, Machine, Plan, Precision, Problem};
 
 /// A kernel that moves fixed and kinematic particles writes their velocities anew in each step; nothing accelerates them, so that
 /// their low words stay zero.
@@ -18,41 +18,17 @@ pub struct Precise {
 }
 
 impl Integrator for Precise {
-    fn name(&self) -> &'static str {
-        self.integrator.name()
+    fn wrapped(&self) -> Option<&dyn Integrator> {
+        Some(self.integrator.as_ref())
     }
     fn order(&self) -> u32 {
         self.integrator.order()
-    }
-    fn order_with_velocity(&self) -> u32 {
-        self.integrator.order_with_velocity()
-    }
-    fn is_implicit(&self) -> bool {
-        self.integrator.is_implicit()
-    }
-    fn is_symplectic(&self) -> bool {
-        self.integrator.is_symplectic()
-    }
-    fn damps_at_any_step(&self) -> bool {
-        self.integrator.damps_at_any_step()
-    }
-    fn adaptive_step(&self) -> Option<AdaptiveStep> {
-        self.integrator.adaptive_step()
-    }
-    fn fixed_step(&self) -> Option<&'static str> {
-        self.integrator.fixed_step()
     }
     fn in_fixed_steps(&self) -> Box<dyn Integrator> {
         Box::new(Self { integrator: self.integrator.in_fixed_steps(), precision: self.precision })
     }
     fn precision(&self) -> Precision {
         self.precision
-    }
-    fn columns(&self) -> Vec<Column> {
-        self.integrator.columns()
-    }
-    fn start(&self, s: &mut Step) {
-        self.integrator.start(s);
     }
     fn step(&self, s: &mut Step) {
         self.integrator.step(s);

@@ -31,7 +31,7 @@ pub const HOME: Field<Vec4> = Field::new("home");
 /// of a particle with more neighbours than a search can visit; 3 and 4: after how many steps a runaway of speeds is
 /// detected, and the lowest id of such particles. Then its criterion, with the bits of speeds as `f32`: 5: the maximum of the
 /// current 16 steps; 6: that of the previous 16; 7: how many times in a row it has more than doubled. 8: the mark of a user's law
-/// whose loops the driver has ended early; 9: that of one whose loops have no end; 10: the driver folds compensated sums.
+/// with loops that the driver has ended early; 9: that of one with loops without end; 10: the driver folds compensated sums.
 pub const ALARM: Field<u32> = Field::new("alarm");
 /// The words of the alarm.
 pub const ALARM_WORDS: usize = 11;
@@ -69,7 +69,7 @@ impl<T> Copy for Field<T> {}
 pub enum Array {
     /// `array<vec4f>`
     Vec4(Vec<DVec4>),
-    /// `array<vec4f>` whose fourth numbers are 0
+    /// `array<vec4f>` with fourth numbers that are 0
     Vec3(Vec<DVec3>),
     /// `array<f32>`
     Float(Vec<f64>),

@@ -53,7 +53,7 @@ pub fn low_words(field: &str) -> Option<&'static str> {
     LOW_WORDS.iter().find(|(high, _)| high.name == field).map(|(_, low)| low.name)
 }
 
-/// The field whose low words another holds.
+/// The field of which another holds the low words.
 #[must_use]
 pub fn high_words(field: &str) -> Option<&'static str> {
     LOW_WORDS.iter().find(|(_, low)| low.name == field).map(|(high, _)| high.name)

@@ -2,7 +2,7 @@
 //!
 //! Columns hold the state of particles. In addition, a step saves for the next one: the accelerations of its first kick, which are those of
 //! half-kicked velocities and cannot be evaluated again; rates of other columns; an adaptive clock, and the dt criteria of forces; the
-//! initial positions of fixed particles; broken springs; the low words of positions and velocities, whose last digits a sum in f64 may lack; the maximum speeds of the last steps, by which an alarm detects a runaway. A state
+//! initial positions of fixed particles; broken springs; the low words of positions and velocities, of which a sum in f64 may lack the last digits; the maximum speeds of the last steps, by which an alarm detects a runaway. A state
 //! carries these. They are valid for the step that wrote them: under other forces, with steps of another length or another integrator, or
 //! on another kind of device, accelerations are evaluated again.
 

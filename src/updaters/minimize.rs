@@ -5,10 +5,10 @@ use std::sync::Arc;
 use glam::{DVec3, DVec4, Vec4};
 
 use super::{Component, Problem, Properties, Stage};
+use crate::component::each;
 use crate::error::Error;
 use crate::kernel::{
-    ACCELERATION, Column, Field, Host, Kernel, Kind as Element, Name, POSITION, Pass, Plan, Reference, Shader, Shape,
-    Source, VELOCITY,
+    ACCELERATION, Column, Field, Host, Kernel, Kind as Element, Name, POSITION, Pass, Plan, Shader, Shape, VELOCITY,
 };
 use crate::primitives::{Items, Operation, reduce};
 use crate::settings::{Key, Kind, Settings, Value};
@@ -47,7 +47,7 @@ const PATIENCE: u32 = 5;
 /// Beyond it sums are not finite in single precision.
 const FINITE: f64 = 1e37;
 
-/// `minimize`: particles move downhill in steps whose length is adapted, with velocities that are turned towards the forces, and set to zero
+/// `minimize`: particles move downhill in steps of adapted lengths, with velocities that are turned towards the forces, and set to zero
 /// where they lead uphill (FIRE: Bitzek, Koskinen, Gähler, Moseler & Gumbsch, Phys. Rev. Lett. 97, 170201, 2006; by semi-implicit steps:
 /// Guénolé et al., Comput. Mater. Sci. 175, 109584, 2020). When no force is larger than the tolerance all particles rest, and stay at rest.
 /// The column `minimize_force` is the largest force. Forces are to be those of an energy: friction, drag and history act on velocities that
@@ -122,15 +122,6 @@ impl Minimize {
         let passes = kernel.passes.into_iter().map(|pass| Pass { constants: constants.clone(), ..pass }).collect();
         Ok(Kernel { passes, sizes: vec![(CHANGE.name.into(), 1)], ..kernel })
     }
-}
-
-/// A kernel of one invocation for each particle, with the information which ones are free.
-fn each(name: &str, file: Source, problem: &Problem, reference: Reference) -> Result<Kernel, Error> {
-    let (holding, tables) = problem.holding();
-    let shader = Shader::join(&[crate::shader!("world.wgsl"), holding, file])?;
-    let passes = vec![Pass::new(shader, problem.capacity)];
-    let (sizes, scratch) = (Vec::new(), Vec::new());
-    Ok(Kernel { name: name.to_owned(), passes, reference: Some(reference), sizes, scratch, tables })
 }
 
 /// Sets velocities, after a kick.

@@ -33,6 +33,7 @@ mod stages;
 mod strained;
 #[path = "../support/mod.rs"]
 mod support;
+mod together;
 mod trees;
 mod walks;
 
@@ -45,13 +46,14 @@ use open::OPEN;
 use stages::Stage;
 use support::Shared;
 use support::equivalents::{Equivalent, Ledger};
-use support::mutants::{Mutant, mutants};
+use support::mutants::mutants;
 use support::tint;
+use together::{File, grouped, unnoticed};
 
 /// These have mutants of their own, in `tests/picture`, `tests/physics/questions.rs` and `tests/engine/own_laws`.
 const WITHOUT_REFERENCES: [&str; 3] = ["render", "selftest", "own"];
 
-/// Stages that run a mutant that is listed as equivalent: those that noticed other mutants last. All of them run
+/// Stages that run a mutant that is listed as equivalent: those that noticed most of the others. All of them run
 /// when only chosen files are tested.
 const ASKED: usize = 8;
 
@@ -80,23 +82,27 @@ fn files() -> Vec<(String, String)> {
     files
 }
 
-/// Whether any stage sees the difference; a stage that does runs first from now on, or behind one that is much smaller: loops that a mutant
-/// makes endless run for as long as a driver lets them, once for each particle.
-fn noticed(stages: &mut [&Stage], file: &str, mutant: &Mutant) -> bool {
-    let smallest = (0..stages.len()).min_by_key(|place| stages[*place].count()).unwrap_or(0);
-    if 4 * stages[smallest].count() <= stages[0].count() {
+/// Whether each mutant is noticed by a stage. Those on the list are shown to the stages that notice most, or to all where `whole`.
+fn noticed(stages: &[&Stage], file: &File, listed: &[bool], whole: bool) -> Vec<bool> {
+    // Behind the first stage comes one that is much smaller: loops that a mutant makes endless run for as long as a driver lets them, once
+    // for each particle.
+    let mut stages: Vec<(usize, &Stage)> = stages.iter().map(|stage| (0, *stage)).collect();
+    let smallest = (0..stages.len()).min_by_key(|place| stages[*place].1.count()).unwrap_or(0);
+    if 4 * stages[smallest].1.count() <= stages[0].1.count() {
         stages[..=smallest].rotate_right(1);
     }
-    let sees = |stage: &&Stage| match stage.mutated(file, &mutant.text) {
-        // A mutant that does not compile is noticed.
-        None => true,
-        Some(plan) => !stage.good(&plan),
-    };
-    let first = stages.iter().position(sees);
-    if let Some(first) = first {
-        stages[..=first].rotate_right(1);
+    let (known, mut alive): (Vec<usize>, Vec<usize>) = (0..listed.len()).partition(|mutant| listed[*mutant]);
+    for (kills, stage) in &mut stages {
+        let before = alive.len();
+        alive = unnoticed(stage, file, &alive);
+        *kills = before - alive.len();
     }
-    first.is_some()
+    stages.sort_by_key(|(kills, _)| std::cmp::Reverse(*kills));
+    // One that lives among others is tried alone.
+    alive.retain(|mutant| stages.iter().all(|(_, stage)| !unnoticed(stage, file, &[*mutant]).is_empty()));
+    let asked = if whole { stages.len() } else { stages.len().min(ASKED) };
+    alive.extend(stages[..asked].iter().fold(known, |alive, (_, stage)| unnoticed(stage, file, &alive)));
+    (0..listed.len()).map(|mutant| !alive.contains(&mutant)).collect()
 }
 
 /// The shaders as they are agree with their references.
@@ -125,16 +131,18 @@ fn work(
     agree(stages.iter().skip(turn).step_by(TURNS));
     while let Some((file, text)) = next() {
         let begun = Instant::now();
-        let mut its: Vec<&Stage> = stages.iter().filter(|stage| stage.uses(&file)).collect();
+        let its: Vec<&Stage> = stages.iter().filter(|stage| stage.uses(&file)).collect();
         assert!(!its.is_empty(), "{file}: no stage runs it");
-        let mutants = mutants(&text);
-        for mutant in &mutants {
-            let listed = ledger.lock().expect("no thread panics").expects(&file, mutant);
-            let asked = if listed && !whole { its.len().min(ASKED) } else { its.len() };
-            let noticed = noticed(&mut its[..asked], &file, mutant);
-            ledger.lock().expect("no thread panics").enter(&file, mutant, noticed);
+        let file = File { mutants: mutants(&text), name: file, text };
+        assert!(grouped(its[0], &file), "{}: what its mutants change is grouped wrongly", file.name);
+        let listed = |mutant| ledger.lock().expect("no thread panics").expects(&file.name, mutant);
+        let listed: Vec<bool> = file.mutants.iter().map(listed).collect();
+        let noticed = noticed(&its, &file, &listed, whole);
+        for (mutant, noticed) in file.mutants.iter().zip(noticed) {
+            ledger.lock().expect("no thread panics").enter(&file.name, mutant, noticed);
         }
-        println!("{file}: {} mutants, {} stages, {:.1} s", mutants.len(), its.len(), begun.elapsed().as_secs_f64());
+        let File { name, mutants, .. } = file;
+        println!("{name}: {} mutants, {} stages, {:.1} s", mutants.len(), its.len(), begun.elapsed().as_secs_f64());
     }
     // Had a mutant broken the device, all after it would have been noticed for nothing.
     agree(stages.iter().skip(turn).step_by(9));

@@ -36,7 +36,7 @@ fn kernels(device: &Device, method: &str) -> Vec<Kernel> {
     plans.start.kernels.into_iter().chain(plans.step.kernels).collect()
 }
 
-/// The kernel of a step whose last file is this one.
+/// The kernel of a step that has this file as its last.
 fn of(kernels: &[Kernel], file: &str) -> Kernel {
     let runs = |kernel: &&Kernel| kernel.passes[0].shader.sources().iter().any(|source| source.file.ends_with(file));
     kernels.iter().find(runs).unwrap_or_else(|| panic!("a step runs {file}")).clone()

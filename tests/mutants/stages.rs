@@ -103,12 +103,15 @@ impl Stage {
         }
         let good = |v: &Verdict| v.worst <= self.slack && !v.spilled;
         let verdicts = pollster::block_on(compare_while(gpu, plan, count, good));
-        gpu.forget_pipelines();
         match verdicts {
             Err(error) => Some(error.to_string()),
             Ok(all) if all.is_empty() => Some("nothing is written".to_owned()),
             Ok(all) => all.iter().find(|v| !good(v)).map(|verdict| format!("{verdict:?}")),
         }
+    }
+    /// Drops the pipelines of mutants.
+    pub fn forget(&self) {
+        self.simulation.borrow_mut().backend().forget_pipelines();
     }
     /// The number of particles.
     pub fn count(&self) -> u32 {
@@ -121,16 +124,25 @@ impl Stage {
     }
     /// The plan with another text in place of a file's; `None` when that does not compile.
     pub fn mutated(&self, file: &str, text: &str) -> Option<Plan> {
+        self.with(file, text, |_| None)
+    }
+    /// The same with a file in addition, for each shader.
+    pub fn with(&self, file: &str, text: &str, more: impl Fn(&Shader) -> Option<Source>) -> Option<Plan> {
         let mut plan = self.plan.clone();
         // A stranger's text: loops are bounded and memory starts at zero, so that no mutant hangs, or lives by chance.
         let theirs = |s: &Source| if s.file == file { Source::theirs(file.into(), text.into()) } else { s.clone() };
         for pass in plan.kernels.iter_mut().flat_map(|k| &mut k.passes) {
             if pass.shader.sources().iter().any(|s| s.file == file) {
-                let sources: Vec<_> = pass.shader.sources().iter().map(theirs).collect();
-                pass.shader = Shader::join(&sources).ok()?;
+                let sources = pass.shader.sources().iter().map(theirs).chain(more(&pass.shader));
+                pass.shader = Shader::join(&sources.collect::<Vec<_>>()).ok()?;
             }
         }
         Some(plan)
+    }
+    /// The shaders that contain a file.
+    pub fn shaders<'a>(&'a self, file: &'a str) -> impl Iterator<Item = &'a Shader> {
+        let passes = self.plan.kernels.iter().flat_map(|k| &k.passes).map(|pass| pass.shader.as_ref());
+        passes.filter(move |shader| shader.sources().iter().any(|s| s.file == file))
     }
 }
 

@@ -61,7 +61,7 @@ const PUBLISHED: [[f64; 3]; 5] = [
 ];
 
 /// The distances of the planets from their published places after a year, heliocentric [AU]; of the outer ones, which have none, from those of
-/// the reference, whose method errs by less than 1e-9 AU there.
+/// the reference, a method that errs by less than 1e-9 AU there.
 fn errors(shared: &Shared, exact: &State, dt: &str, steps: u32, precision: &str) -> Vec<f64> {
     let mut simulation = on(shared, &solar_system(dt, precision));
     simulation.step(steps).expect("steps");

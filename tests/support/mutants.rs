@@ -7,6 +7,8 @@ pub struct Mutant {
     pub line: String,
     /// The place in the line, in characters: of several equal tokens each is another mutant.
     pub column: usize,
+    /// The place in the text, in bytes.
+    pub at: usize,
     /// What was there.
     pub old: String,
     /// What is there now.
@@ -66,7 +68,8 @@ pub fn mutants(text: &str) -> Vec<Mutant> {
             for new in changes(old, spaced) {
                 let text = [&text[..start + from], &new, &text[start + to..]].concat();
                 let column = code[..from].chars().count();
-                all.push(Mutant { line: line.trim().to_owned(), column, old: old.to_owned(), new, text });
+                let (line, old, at) = (line.trim().to_owned(), old.to_owned(), start + from);
+                all.push(Mutant { line, column, at, old, new, text });
             }
         }
         start += line.len();

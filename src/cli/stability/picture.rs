@@ -64,7 +64,7 @@ pub fn draw(path: &Path, courses: &[Course], args: &StabilityArgs) -> Result<(),
     })
 }
 
-/// One curve for all integrators whose solutions differ by less than a line's width everywhere.
+/// One curve for all integrators with solutions that differ by less than a line's width everywhere.
 fn curves(courses: &[Course], values: fn(&Course) -> &Vec<f64>) -> Vec<Curve<'_>> {
     let mut list: Vec<(bool, Vec<&str>, &[f64])> = Vec::new();
     for course in courses {

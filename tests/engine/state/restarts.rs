@@ -161,7 +161,7 @@ fn every_integrator_goes_on_with_the_same_bits() {
     assert!(failures.is_empty(), "{}", failures.join("\n"));
 }
 
-/// The same forces, positions and velocities in two words, whose last digits a sum in f64 lacks.
+/// The same forces, positions and velocities in two words, the last digits of which a sum in f64 lacks.
 fn in_two_words(integrator: &str) -> Setup {
     let precision = motes::kernel::Precision::Compensated;
     Setup { integrator: Box::new(Precise { integrator: self::integrator(integrator), precision }), ..mixed(integrator) }

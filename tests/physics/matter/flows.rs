@@ -122,7 +122,7 @@ fn rates(diameter: f64, friction: f64) -> [f64; 2] {
 }
 
 /// W = C ρ √g (D − 1.4 d)^5/2 with C = 0.58, whatever is left above (Beverloo, Leniger & van de Velde 1961), for a bulk density of 1500.
-/// The law is one of orifices above 6 d; here 5 and 6.2 d, whose flow trembles as arches form and break: within 30 %. Published C are 0.55
+/// The law is one of orifices above 6 d; here 5 and 6.2 d, where the flow trembles as arches form and break: within 30 %. Published C are 0.55
 /// to 0.65. Negative controls: without the empty rim of 1.4 d it is off by more than twice, and without friction grains run faster.
 #[test]
 fn hoppers_flow_by_beverloos_law() {

@@ -2,6 +2,8 @@
 
 use glam::DVec3;
 use motes::forces::Component;
+use motes::integrators::Precise;
+use motes::kernel::Precision;
 use motes::motion::{Held, Hold};
 use motes::settings::Value;
 use motes::{Bounds, Setup, Simulation, State};
@@ -10,7 +12,7 @@ use pollster::block_on;
 use super::{cut, setup};
 use crate::matter::{agrees, on_cpu, spread};
 use crate::support::Random;
-use crate::support::states::{force, word};
+use crate::support::states::{force, integrator, word};
 
 fn minimize(tolerance: f64) -> Box<dyn Component> {
     force("minimize", &[("tolerance", Value::Number(tolerance)), ("largest_move", Value::Number(0.1))])
@@ -156,6 +158,14 @@ fn integrators_serve_or_are_refused() {
             assert!(why.contains("minimize") && why.contains("leapfrog or beeman"), "{}: {why}", entry.name);
         }
     }
+    // A wrapped integrator has what its method has; two words are refused because of `minimize`, not of leapfrog.
+    let precise = |precision| {
+        let integrator = Box::new(Precise { integrator: integrator("leapfrog"), precision });
+        Setup { integrator, ..atoms(cluster(13), 1e-4) }.check()
+    };
+    precise(Precision::Single).expect("leapfrog");
+    let why = precise(Precision::Compensated).expect_err("two words").to_string();
+    assert!(why.contains("compensated") && why.contains("minimize") && !why.contains("beeman"), "{why}");
 }
 
 #[test]

@@ -1,0 +1,115 @@
+//! The mutants of a file in one stage, compiled together where they can be.
+
+use std::collections::BTreeSet;
+
+use motes::kernel::{Plan, Shader, Source};
+
+use crate::stages::Stage;
+use crate::support::joint::{self, BLOCK};
+use crate::support::mutants::Mutant;
+
+/// A file with its mutants.
+pub struct File {
+    pub name: String,
+    pub text: String,
+    pub mutants: Vec<Mutant>,
+}
+
+/// Several mutants in the plan of a stage, of which a number chooses one.
+struct Together {
+    plan: Plan,
+    inside: BTreeSet<usize>,
+}
+
+impl Together {
+    /// Those of the mutants that compile together, if there are two and the stage is good while none of them is chosen.
+    fn of(stage: &Stage, file: &File, wanted: &[usize]) -> Option<Self> {
+        let single: BTreeSet<String> = stage.shaders(&file.name).flat_map(|s| joint::single(s.module())).collect();
+        let together = Self::compiled(stage, file, wanted, &single)?;
+        if std::env::var("SHOW").is_ok() {
+            println!(
+                "  {}: {}: {} of {} together, {} characters",
+                file.name,
+                stage.name,
+                together.inside.len(),
+                wanted.len(),
+                0
+            );
+        }
+        (together.inside.len() > 1 && stage.good(&together.choosing(None))).then_some(together)
+    }
+    /// As many as compile: where all of them do not, the halves are tried.
+    fn compiled(stage: &Stage, file: &File, wanted: &[usize], single: &BTreeSet<String>) -> Option<Self> {
+        let (text, inside) = joint::joined(&file.text, &file.mutants, wanted, &|name| !single.contains(name));
+        if inside.is_empty() {
+            return None;
+        }
+        if let Some(plan) = stage.with(&file.name, &text, declaration) {
+            return Some(Self { plan, inside: inside.into_iter().collect() });
+        }
+        if inside.len() == 1 {
+            return None;
+        }
+        let (first, second) = inside.split_at(inside.len() / 2);
+        let [first, second] = [first, second].map(|half| Self::compiled(stage, file, half, single));
+        let (Some(first), Some(second)) = (&first, &second) else { return first.or(second) };
+        let both: Vec<usize> = first.inside.union(&second.inside).copied().collect();
+        let (text, inside) = joint::joined(&file.text, &file.mutants, &both, &|name| !single.contains(name));
+        let plan = stage.with(&file.name, &text, declaration)?;
+        Some(Self { plan, inside: inside.into_iter().collect() })
+    }
+    /// The plan of one mutant, or of none.
+    fn choosing(&self, mutant: Option<usize>) -> Plan {
+        let mut plan = self.plan.clone();
+        for pass in plan.kernels.iter_mut().flat_map(|kernel| &mut kernel.passes) {
+            if pass.shader.reflection().binding(BLOCK).is_some() {
+                pass.uniforms.push((BLOCK, joint::choose(mutant)));
+            }
+        }
+        plan
+    }
+}
+
+/// Whether what mutants of a file change is chosen as the language groups it: brackets around all of it change nothing.
+pub fn grouped(stage: &Stage, file: &File) -> bool {
+    let bracketed = joint::bracketed(&file.text, &file.mutants);
+    let expressions = |text: &str| {
+        let plan = stage.with(&file.name, text, |_| None).expect("a shader with brackets");
+        let passes = plan.kernels.iter().flat_map(|kernel| &kernel.passes).map(|pass| pass.shader.module().clone());
+        let functions = |module: naga::Module| {
+            let entries: Vec<_> =
+                module.entry_points.iter().map(|entry| format!("{:?}", entry.function.expressions)).collect();
+            let functions = module.functions.iter().map(|(_, function)| format!("{:?}", function.expressions));
+            functions.chain(entries).collect::<Vec<_>>()
+        };
+        passes.flat_map(functions).collect::<Vec<_>>()
+    };
+    expressions(&bracketed) == expressions(&file.text)
+}
+
+/// The block that chooses, at the first binding that a shader leaves free.
+fn declaration(shader: &Shader) -> Option<Source> {
+    let group = shader.reflection().bindings.iter().filter(|binding| binding.group == 0);
+    let free = group.map(|binding| binding.binding + 1).max().unwrap_or(0);
+    Some(Source::theirs(BLOCK.into(), joint::declaration(0, free)))
+}
+
+/// Those of the mutants that a stage does not notice.
+pub fn unnoticed(stage: &Stage, file: &File, mutants: &[usize]) -> Vec<usize> {
+    let together = if mutants.len() > 1 { Together::of(stage, file, mutants) } else { None };
+    let lives = |mutant: &usize| match &together {
+        Some(all) if all.inside.contains(mutant) => stage.good(&all.choosing(Some(*mutant))),
+        // A mutant that does not compile is noticed.
+        _ => stage.mutated(&file.name, &file.mutants[*mutant].text).is_some_and(|plan| {
+            let good = stage.good(&plan);
+            stage.forget();
+            good
+        }),
+    };
+    // Those that are apart come last: what is forgotten after each of them is needed by the others.
+    let inside = |mutant: &&usize| together.as_ref().is_some_and(|all| all.inside.contains(mutant));
+    let (joined, apart): (Vec<&usize>, Vec<&usize>) = mutants.iter().partition(inside);
+    let all = joined.into_iter().chain(apart).filter(|mutant| lives(mutant)).copied().collect();
+    stage.forget();
+    all
+}
