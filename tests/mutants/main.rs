@@ -39,6 +39,7 @@ mod walks;
 
 use std::path::{Path, PathBuf};
 use std::sync::Mutex;
+use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Instant;
 
 use equivalents::{EQUIVALENT, SOLVES};
@@ -60,8 +61,8 @@ const ASKED: usize = 8;
 /// A software device compiles shaders in one thread, its queue's: two devices keep two cores busy.
 const TURNS: usize = 2;
 
-/// The shaders that have references, by their names in messages.
-fn files() -> Vec<(String, String)> {
+/// The shaders that have references.
+fn files() -> Vec<File> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     let mut folders: Vec<PathBuf> = vec![root.join("shaders")];
     let mut files = Vec::new();
@@ -74,23 +75,31 @@ fn files() -> Vec<(String, String)> {
                 }
             } else if path.extension().is_some_and(|e| e == "wgsl") {
                 let name = path.strip_prefix(root).expect("inside").to_string_lossy().replace('\\', "/");
-                files.push((name, std::fs::read_to_string(&path).expect("a text")));
+                let text = std::fs::read_to_string(&path).expect("a text");
+                files.push(File { mutants: mutants(&text), name, text });
             }
         }
     }
-    files.sort();
+    // The longest first, so that no thread is left with one when the others are done.
+    files.sort_by(|a, b| (b.text.len(), &b.name).cmp(&(a.text.len(), &a.name)));
     files
 }
 
 /// Whether each mutant is noticed by a stage. Those on the list are shown to the stages that notice most, or to all where `whole`.
 fn noticed(stages: &[&Stage], file: &File, listed: &[bool], whole: bool) -> Vec<bool> {
-    // Behind the first stage comes one that is much smaller: loops that a mutant makes endless run for as long as a driver lets them, once
-    // for each particle.
+    // Stages beside each other are alike: they are taken from all over the list, so that what one kind overlooks is soon shown to another. The
+    // smallest is the first, where it is much smaller: loops that a mutant makes endless run for as long as a driver lets them, once for each
+    // particle.
     let mut stages: Vec<(usize, &Stage)> = stages.iter().map(|stage| (0, *stage)).collect();
     let smallest = (0..stages.len()).min_by_key(|place| stages[*place].1.count()).unwrap_or(0);
     if 4 * stages[smallest].1.count() <= stages[0].1.count() {
         stages[..=smallest].rotate_right(1);
     }
+    let mut place = 0u32;
+    stages.sort_by_cached_key(|_| {
+        place += 1;
+        (place - 1).reverse_bits()
+    });
     let (known, mut alive): (Vec<usize>, Vec<usize>) = (0..listed.len()).partition(|mutant| listed[*mutant]);
     for (kills, stage) in &mut stages {
         let before = alive.len();
@@ -113,13 +122,7 @@ fn agree<'a>(stages: impl Iterator<Item = &'a Stage>) {
 }
 
 /// Takes file after file, until there are no more; `whole` asks every stage about every mutant.
-fn work(
-    (shared, turn): (&Shared, usize),
-    whole: bool,
-    next: &dyn Fn() -> Option<(String, String)>,
-    all: &[String],
-    ledger: &Mutex<Ledger<'_>>,
-) {
+fn work((shared, turn): (&Shared, usize), whole: bool, all: &[File], next: &AtomicUsize, ledger: &Mutex<Ledger<'_>>) {
     let mut stages = stages::all(shared);
     if turn == 0 {
         // Stages run on lavapipe, whose subgroups have eight lanes.
@@ -127,22 +130,24 @@ fn work(
             stages.iter().flat_map(|stage| stage.plan.kernels.iter().map(|kernel| (stage.name.clone(), kernel, 8)));
         tint::write("mutants", &tint::shaders(kernels));
     }
-    stages.retain(|stage| all.iter().any(|file| stage.uses(file)));
+    stages.retain(|stage| all.iter().any(|file| stage.uses(&file.name)));
+    for file in all.iter().skip(turn).step_by(TURNS) {
+        let stage = stages.iter().find(|stage| stage.uses(&file.name));
+        let stage = stage.unwrap_or_else(|| panic!("{}: no stage runs it", file.name));
+        assert!(grouped(stage, file), "{}: what its mutants change is grouped wrongly", file.name);
+    }
     agree(stages.iter().skip(turn).step_by(TURNS));
-    while let Some((file, text)) = next() {
+    while let Some(file) = all.get(next.fetch_add(1, Ordering::Relaxed)) {
         let begun = Instant::now();
-        let its: Vec<&Stage> = stages.iter().filter(|stage| stage.uses(&file)).collect();
-        assert!(!its.is_empty(), "{file}: no stage runs it");
-        let file = File { mutants: mutants(&text), name: file, text };
-        assert!(grouped(its[0], &file), "{}: what its mutants change is grouped wrongly", file.name);
+        let its: Vec<&Stage> = stages.iter().filter(|stage| stage.uses(&file.name)).collect();
         let listed = |mutant| ledger.lock().expect("no thread panics").expects(&file.name, mutant);
         let listed: Vec<bool> = file.mutants.iter().map(listed).collect();
-        let noticed = noticed(&its, &file, &listed, whole);
+        let noticed = noticed(&its, file, &listed, whole);
         for (mutant, noticed) in file.mutants.iter().zip(noticed) {
             ledger.lock().expect("no thread panics").enter(&file.name, mutant, noticed);
         }
-        let File { name, mutants, .. } = file;
-        println!("{name}: {} mutants, {} stages, {:.1} s", mutants.len(), its.len(), begun.elapsed().as_secs_f64());
+        let (count, seconds) = (file.mutants.len(), begun.elapsed().as_secs_f64());
+        println!("{}: {count} mutants, {} stages, {seconds:.1} s", file.name, its.len());
     }
     // Had a mutant broken the device, all after it would have been noticed for nothing.
     agree(stages.iter().skip(turn).step_by(9));
@@ -177,18 +182,13 @@ fn every_mutant_is_noticed() {
     let only = std::env::var("MUTANTS").unwrap_or_default();
     let wanted = |file: &str| only.split(',').any(|part| file.contains(part));
     let mut files = files();
-    files.retain(|(file, _)| {
-        wanted(file) && (has_subgroups || !["subgroup", "broadcast"].iter().any(|part| file.contains(part)))
-    });
-    // The longest first, so that no thread is left with one when the others are done.
-    files.sort_by_key(|(_, text)| text.len());
-    let all: Vec<String> = files.iter().map(|(file, _)| file.clone()).collect();
-    let files = Mutex::new(files);
-    let next = || files.lock().expect("no thread panics").pop();
+    let runs = |file: &str| has_subgroups || !["subgroup", "broadcast"].iter().any(|part| file.contains(part));
+    files.retain(|file| wanted(&file.name) && runs(&file.name));
+    let next = AtomicUsize::new(0);
     std::thread::scope(|scope| {
         for (turn, shared) in devices.iter().enumerate() {
-            let (next, all, ledger, whole) = (&next, &all, &ledger, !only.is_empty());
-            scope.spawn(move || work((shared, turn), whole, next, all, ledger));
+            let (files, next, ledger, whole) = (&files, &next, &ledger, !only.is_empty());
+            scope.spawn(move || work((shared, turn), whole, files, next, ledger));
         }
     });
     // As many as were there when this was written, less a third: an empty list of mutants would be noticed in full.

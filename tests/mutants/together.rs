@@ -2,11 +2,17 @@
 
 use std::collections::BTreeSet;
 
-use motes::kernel::{Plan, Shader, Source};
+use motes::kernel::{Access, Plan, Shader, Source};
 
 use crate::stages::Stage;
 use crate::support::joint::{self, BLOCK};
 use crate::support::mutants::Mutant;
+
+/// Mutants that are compiled together at most: texts with many of them are nested deeply, and drivers take longer for them than for several texts.
+const MOST: usize = 24;
+
+/// Uniform blocks of a shader to which the one that chooses is added: with a fifth lavapipe of Mesa 22.3 ends the process.
+const UNIFORMS: usize = 3;
 
 /// A file with its mutants.
 pub struct File {
@@ -24,18 +30,14 @@ struct Together {
 impl Together {
     /// Those of the mutants that compile together, if there are two and the stage is good while none of them is chosen.
     fn of(stage: &Stage, file: &File, wanted: &[usize]) -> Option<Self> {
+        let uniforms = |shader: &Shader| {
+            shader.reflection().bindings.iter().filter(|binding| binding.access == Access::Uniform).count()
+        };
+        if stage.shaders(&file.name).any(|shader| uniforms(shader) > UNIFORMS) {
+            return None;
+        }
         let single: BTreeSet<String> = stage.shaders(&file.name).flat_map(|s| joint::single(s.module())).collect();
         let together = Self::compiled(stage, file, wanted, &single)?;
-        if std::env::var("SHOW").is_ok() {
-            println!(
-                "  {}: {}: {} of {} together, {} characters",
-                file.name,
-                stage.name,
-                together.inside.len(),
-                wanted.len(),
-                0
-            );
-        }
         (together.inside.len() > 1 && stage.good(&together.choosing(None))).then_some(together)
     }
     /// As many as compile: where all of them do not, the halves are tried.
@@ -74,7 +76,7 @@ impl Together {
 pub fn grouped(stage: &Stage, file: &File) -> bool {
     let bracketed = joint::bracketed(&file.text, &file.mutants);
     let expressions = |text: &str| {
-        let plan = stage.with(&file.name, text, |_| None).expect("a shader with brackets");
+        let plan = stage.with(&file.name, text, |_| None).unwrap_or_else(|| panic!("{}: brackets", file.name));
         let passes = plan.kernels.iter().flat_map(|kernel| &kernel.passes).map(|pass| pass.shader.module().clone());
         let functions = |module: naga::Module| {
             let entries: Vec<_> =
@@ -96,20 +98,17 @@ fn declaration(shader: &Shader) -> Option<Source> {
 
 /// Those of the mutants that a stage does not notice.
 pub fn unnoticed(stage: &Stage, file: &File, mutants: &[usize]) -> Vec<usize> {
-    let together = if mutants.len() > 1 { Together::of(stage, file, mutants) } else { None };
-    let lives = |mutant: &usize| match &together {
-        Some(all) if all.inside.contains(mutant) => stage.good(&all.choosing(Some(*mutant))),
-        // A mutant that does not compile is noticed.
-        _ => stage.mutated(&file.name, &file.mutants[*mutant].text).is_some_and(|plan| {
-            let good = stage.good(&plan);
-            stage.forget();
-            good
-        }),
-    };
-    // Those that are apart come last: what is forgotten after each of them is needed by the others.
-    let inside = |mutant: &&usize| together.as_ref().is_some_and(|all| all.inside.contains(mutant));
-    let (joined, apart): (Vec<&usize>, Vec<&usize>) = mutants.iter().partition(inside);
-    let all = joined.into_iter().chain(apart).filter(|mutant| lives(mutant)).copied().collect();
+    let all = mutants.chunks(MOST).flat_map(|some| few_unnoticed(stage, file, some)).collect();
     stage.forget();
     all
+}
+
+fn few_unnoticed(stage: &Stage, file: &File, mutants: &[usize]) -> Vec<usize> {
+    let together = if mutants.len() > 1 { Together::of(stage, file, mutants) } else { None };
+    let plan = |mutant: usize| match &together {
+        Some(all) if all.inside.contains(&mutant) => Some(all.choosing(Some(mutant))),
+        _ => stage.mutated(&file.name, &file.mutants[mutant].text),
+    };
+    // A mutant that does not compile is noticed.
+    mutants.iter().copied().filter(|mutant| plan(*mutant).is_some_and(|plan| stage.good(&plan))).collect()
 }

@@ -1,5 +1,5 @@
 //! Many mutants in one text. Each stands beside what it changes, and a number in a uniform block chooses one of them, so that a driver compiles
-//! all of them at once: `a + b` becomes `select(a + b, a - b, chosen.mutant.x == 3u)`.
+//! all of them at once: `a + b` becomes `select(a + b, a - b, mutant_choice.number.x == 3u)`.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
@@ -32,12 +32,12 @@ pub fn single(module: &naga::Module) -> BTreeSet<String> {
 }
 
 /// The uniform block with the number of the mutant.
-pub const BLOCK: &str = "chosen";
+pub const BLOCK: &str = "mutant_choice";
 
 /// The declaration of the block, at a binding that is free.
 pub fn declaration(group: u32, binding: u32) -> String {
     format!(
-        "struct ChosenMutant {{ mutant: vec4u }}\n@group({group}) @binding({binding}) var<uniform> {BLOCK}: ChosenMutant;\n"
+        "struct MutantChoice {{ number: vec4u }}\n@group({group}) @binding({binding}) var<uniform> {BLOCK}: MutantChoice;\n"
     )
 }
 
@@ -75,7 +75,7 @@ pub fn joined(text: &str, mutants: &[Mutant], wanted: &[usize], copied: &dyn Fn(
         numbers.iter().fold(part, |part, number| {
             let Mutant { at, old, new, .. } = &mutants[*number];
             let changed = [&text[site.range.start..*at], new, &text[at + old.len()..site.range.end]].concat();
-            let chosen = format!("{BLOCK}.mutant.x == {number}u");
+            let chosen = format!("{BLOCK}.number.x == {number}u");
             if site.statement {
                 format!("if ({chosen}) {{ {changed} }} else {{ {part} }}")
             } else {
@@ -136,7 +136,8 @@ fn twice(code: &str, copied: &dyn Fn(&str) -> bool) -> bool {
     code.match_indices('(').all(|(at, _)| {
         let start = code[..at].bytes().rposition(|b| !name(b)).map_or(0, |last| last + 1);
         let function = &code[start..at];
-        function.is_empty() || !function.starts_with("atomic") && !function.starts_with("workgroup") && copied(function)
+        function.is_empty()
+            || !["atomic", "workgroup"].iter().any(|word| function.starts_with(word)) && copied(function)
     })
 }
 
@@ -147,6 +148,9 @@ fn name(b: u8) -> bool {
 /// What is chosen instead of the token at a place.
 fn site(code: &str, at: usize, old: &str) -> Option<Site> {
     let end = at + old.len();
+    if old.starts_with("atomic") {
+        return None;
+    }
     let begun = code[..at].rfind(['{', '}', ';']).map_or(0, |last| last + 1);
     let depth = code[..at].bytes().fold(0, |open, b| open + i32::from(b == b'{') - i32::from(b == b'}'));
     if depth == 0 || code[begun..].trim_start().starts_with("const ") {
