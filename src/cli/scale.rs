@@ -60,7 +60,11 @@ fn refuse(root: &Table) -> Result<(), Error> {
         }
     }
     let kind = |table: &Table| table.get("kind").and_then(Value::as_str).unwrap_or_default().to_owned();
-    if tables(root, "force").any(|table| ["contact", "contact_wall"].contains(&kind(table).as_str())) {
+    let touch = |table: &Table| {
+        ["contact", "contact_wall"].contains(&kind(table).as_str())
+            || table.get("grains").and_then(Value::as_bool) == Some(true)
+    };
+    if tables(root, "force").any(touch) {
         return refused("the scene has grains, whose radius its walls and its time step fit");
     }
     if tables(root, "force").any(|table| table.contains_key("pairs")) {

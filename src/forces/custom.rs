@@ -100,7 +100,9 @@ impl Component for Custom {
         if self.grains { grains::columns() } else { Vec::new() }
     }
     fn properties(&self) -> Properties {
-        let Over::List { range, .. } = self.over else {
+        let (Over::List { range, .. } | Over::Near { range, .. } | Over::Within { range } | Over::Auto { range, .. }) =
+            self.over
+        else {
             return Properties { turns: self.grains, ..Properties::default() };
         };
         let why = "its range is the largest sum of two radii at least";

@@ -49,7 +49,7 @@ use support::Shared;
 use support::equivalents::{Equivalent, Ledger};
 use support::mutants::mutants;
 use support::tint;
-use together::{File, grouped, unnoticed};
+use together::{APART, File, JOINED, grouped, unnoticed};
 
 /// These have mutants of their own, in `tests/picture`, `tests/physics/questions.rs` and `tests/engine/own_laws`.
 const WITHOUT_REFERENCES: [&str; 3] = ["render", "selftest", "own"];
@@ -191,6 +191,9 @@ fn every_mutant_is_noticed() {
             scope.spawn(move || work((shared, turn), whole, files, next, ledger));
         }
     });
+    let [joined, apart] = [&JOINED, &APART].map(|count| count.load(Ordering::Relaxed));
+    println!("shown {joined} times together with others, {apart} times alone");
+    assert!(!only.is_empty() || joined > apart, "{joined} of {} are shown together", joined + apart);
     // As many as were there when this was written, less a third: an empty list of mutants would be noticed in full.
     let due = |equivalent: &Equivalent| has_subgroups || !equivalent.file.contains("subgroup");
     let ledger = ledger.into_inner().expect("no thread panics");

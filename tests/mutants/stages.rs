@@ -90,6 +90,13 @@ impl Stage {
     }
     /// The same; what is wrong, if anything.
     pub fn fault(&self, plan: &Plan) -> Option<String> {
+        self.verdict(plan).unwrap_or_else(|error| Some(error.to_string()))
+    }
+    /// The same.
+    ///
+    /// # Errors
+    /// Those of the device, which may have been too slow.
+    pub fn verdict(&self, plan: &Plan) -> Result<Option<String>, motes::Error> {
         let mut simulation = self.simulation.borrow_mut();
         let count = simulation.count();
         let gpu = simulation.backend();
@@ -98,16 +105,15 @@ impl Stage {
         }
         gpu.set_world(self.clock).expect("a clock");
         if let Some((field, want)) = &self.expected {
-            let same = Self::holds(gpu, plan, field, want).unwrap_or(false);
-            return (!same).then(|| format!("{field} is not what was expected"));
+            let same = Self::holds(gpu, plan, field, want)?;
+            return Ok((!same).then(|| format!("{field} is not what was expected")));
         }
         let good = |v: &Verdict| v.worst <= self.slack && !v.spilled;
-        let verdicts = pollster::block_on(compare_while(gpu, plan, count, good));
-        match verdicts {
-            Err(error) => Some(error.to_string()),
-            Ok(all) if all.is_empty() => Some("nothing is written".to_owned()),
-            Ok(all) => all.iter().find(|v| !good(v)).map(|verdict| format!("{verdict:?}")),
+        let all = pollster::block_on(compare_while(gpu, plan, count, good))?;
+        if all.is_empty() {
+            return Ok(Some("nothing is written".to_owned()));
         }
+        Ok(all.iter().find(|v| !good(v)).map(|verdict| format!("{verdict:?}")))
     }
     /// Drops the pipelines of mutants.
     pub fn forget(&self) {

@@ -1,6 +1,7 @@
 //! The mutants of a file in one stage, compiled together where they can be.
 
 use std::collections::BTreeSet;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 use motes::kernel::{Access, Plan, Shader, Source};
 
@@ -13,6 +14,10 @@ const MOST: usize = 24;
 
 /// Uniform blocks of a shader to which the one that chooses is added: with a fifth lavapipe of Mesa 22.3 ends the process.
 const UNIFORMS: usize = 3;
+
+/// How often a stage was shown a mutant among others, and alone.
+pub static JOINED: AtomicUsize = AtomicUsize::new(0);
+pub static APART: AtomicUsize = AtomicUsize::new(0);
 
 /// A file with its mutants.
 pub struct File {
@@ -105,10 +110,20 @@ pub fn unnoticed(stage: &Stage, file: &File, mutants: &[usize]) -> Vec<usize> {
 
 fn few_unnoticed(stage: &Stage, file: &File, mutants: &[usize]) -> Vec<usize> {
     let together = if mutants.len() > 1 { Together::of(stage, file, mutants) } else { None };
-    let plan = |mutant: usize| match &together {
-        Some(all) if all.inside.contains(&mutant) => Some(all.choosing(Some(mutant))),
-        _ => stage.mutated(&file.name, &file.mutants[mutant].text),
+    let alone = |mutant: usize| {
+        // A mutant that does not compile is noticed.
+        stage.mutated(&file.name, &file.mutants[mutant].text).is_some_and(|plan| stage.good(&plan))
     };
-    // A mutant that does not compile is noticed.
-    mutants.iter().copied().filter(|mutant| plan(*mutant).is_some_and(|plan| stage.good(&plan))).collect()
+    let lives = |mutant: &usize| match &together {
+        // One that is too slow in company may be quick enough alone.
+        Some(all) if all.inside.contains(mutant) => {
+            JOINED.fetch_add(1, Ordering::Relaxed);
+            stage.verdict(&all.choosing(Some(*mutant))).map_or_else(|_| alone(*mutant), |fault| fault.is_none())
+        }
+        _ => {
+            APART.fetch_add(1, Ordering::Relaxed);
+            alone(*mutant)
+        }
+    };
+    mutants.iter().copied().filter(lives).collect()
 }

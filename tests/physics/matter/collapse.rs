@@ -69,7 +69,7 @@ fn run_out(more: &[(usize, &str, f64)]) -> f64 {
 fn columns_run_out_as_measured() {
     let rolling = |x: f64| run_out(&[(0, "rolling_friction", x), (1, "rolling_friction", x)]);
     let [measured, stiff] = [0.1, 0.5].map(rolling);
-    assert!(measured > 1.1 && measured < 2.0, "{measured}");
+    assert!(measured > 1.08 && measured < 1.98, "{measured}");
     assert!(stiff < 1.1, "{stiff}");
 }
 
@@ -93,7 +93,7 @@ fn slope(state: &State) -> f64 {
 }
 
 /// Grains in a drum that turns slowly flow over a straight slope at an angle of 20 to 45 degrees, in avalanches that change it by some degrees
-/// (Rajchenbach 1990); it is lower by far where they hardly rub.
+/// (Rajchenbach 1990); it is lower by 8 degrees at least where they hardly rub.
 #[test]
 fn drums_have_a_dynamic_angle_of_repose() {
     let angle = |more: &[&str]| {

@@ -2,8 +2,8 @@
 
 use glam::DVec3;
 use motes::forces::Component;
-use motes::integrators::Precise;
-use motes::kernel::Precision;
+use motes::integrators::{Adaptive, Precise};
+use motes::kernel::{AdaptiveStep, Precision};
 use motes::motion::{Held, Hold};
 use motes::settings::Value;
 use motes::{Bounds, Setup, Simulation, State};
@@ -164,6 +164,10 @@ fn integrators_serve_or_are_refused() {
         Setup { integrator, ..atoms(cluster(13), 1e-4) }.check()
     };
     precise(Precision::Single).expect("leapfrog");
+    let adaptive_step = AdaptiveStep { least: 1e-4, courant: 0.3, before: None };
+    let integrator = Box::new(Adaptive { integrator: integrator("leapfrog"), adaptive_step });
+    let why = Setup { integrator, ..atoms(cluster(13), 1e-4) }.check().expect_err("adaptive steps").to_string();
+    assert!(why.contains("minimize has lengths of steps of its own"), "{why}");
     let why = precise(Precision::Compensated).expect_err("two words").to_string();
     assert!(why.contains("compensated") && why.contains("minimize") && !why.contains("beeman"), "{why}");
 }
