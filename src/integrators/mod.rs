@@ -27,25 +27,25 @@ pub trait Integrator: Copied + Send + Sync {
     }
     /// Its name in messages: that of scenes, if it has one.
     fn name(&self) -> &'static str {
-        self.wrapped().map_or("the integrator", |method| method.name())
+        self.wrapped().map_or("the integrator", Integrator::name)
     }
     /// The order of convergence, for forces that depend on position and time alone.
     fn order(&self) -> u32;
     /// The order when a force depends on velocity too: 1 for symplectic integrators, whose kicks use the current velocity.
     fn order_with_velocity(&self) -> u32 {
-        self.wrapped().map_or(1, |method| method.order_with_velocity())
+        self.wrapped().map_or(1, Integrator::order_with_velocity)
     }
     /// Whether it solves implicitly for laws with a Jacobian.
     fn is_implicit(&self) -> bool {
-        self.wrapped().is_some_and(|method| method.is_implicit())
+        self.wrapped().is_some_and(Integrator::is_implicit)
     }
     /// Whether it is symplectic with a fixed step: the energy error stays bounded.
     fn is_symplectic(&self) -> bool {
-        self.wrapped().is_some_and(|method| method.is_symplectic())
+        self.wrapped().is_some_and(Integrator::is_symplectic)
     }
     /// Whether it damps fast modes at any step size.
     fn damps_at_any_step(&self) -> bool {
-        self.wrapped().is_some_and(|method| method.damps_at_any_step())
+        self.wrapped().is_some_and(Integrator::damps_at_any_step)
     }
     /// The reason for requiring a fixed time step, if it does.
     fn fixed_step(&self) -> Option<&'static str> {
@@ -58,7 +58,7 @@ pub trait Integrator: Copied + Send + Sync {
     }
     /// The limits of its time step, where steps are adaptive.
     fn adaptive_step(&self) -> Option<AdaptiveStep> {
-        self.wrapped().and_then(|method| method.adaptive_step())
+        self.wrapped().and_then(Integrator::adaptive_step)
     }
     /// The same method with a fixed step.
     fn in_fixed_steps(&self) -> Box<dyn Integrator> {
@@ -66,15 +66,15 @@ pub trait Integrator: Copied + Send + Sync {
     }
     /// Whether forces at the end of a step are those of the positions there.
     fn ends_with_forces(&self) -> bool {
-        self.wrapped().is_some_and(|method| method.ends_with_forces())
+        self.wrapped().is_some_and(Integrator::ends_with_forces)
     }
     /// The precision in which it keeps positions and velocities.
     fn precision(&self) -> Precision {
-        self.wrapped().map_or(Precision::Single, |method| method.precision())
+        self.wrapped().map_or(Precision::Single, Integrator::precision)
     }
     /// The columns that it needs in addition to those of all simulations: the data that a step passes to the next.
     fn columns(&self) -> Vec<Column> {
-        self.wrapped().map_or_else(Vec::new, |method| method.columns())
+        self.wrapped().map_or_else(Vec::new, Integrator::columns)
     }
     /// Adds the kernels that run once, before the first step.
     fn start(&self, step: &mut Step) {

@@ -16,6 +16,7 @@ mod ewald;
 mod fluids;
 mod held;
 mod implicit;
+mod joint;
 mod laws;
 mod lists;
 mod matter;

@@ -130,10 +130,10 @@ impl Stage {
     }
     /// The plan with another text in place of a file's; `None` when that does not compile.
     pub fn mutated(&self, file: &str, text: &str) -> Option<Plan> {
-        self.with(file, text, |_| None)
+        self.with(file, text, |_| Vec::new())
     }
-    /// The same with a file in addition, for each shader.
-    pub fn with(&self, file: &str, text: &str, more: impl Fn(&Shader) -> Option<Source>) -> Option<Plan> {
+    /// The same with more files for each shader.
+    pub fn with(&self, file: &str, text: &str, more: impl Fn(&Shader) -> Vec<Source>) -> Option<Plan> {
         let mut plan = self.plan.clone();
         // A stranger's text: loops are bounded and memory starts at zero, so that no mutant hangs, or lives by chance.
         let theirs = |s: &Source| if s.file == file { Source::theirs(file.into(), text.into()) } else { s.clone() };

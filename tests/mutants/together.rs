@@ -5,8 +5,8 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use motes::kernel::{Access, Plan, Shader, Source};
 
+use crate::joint::{self, BLOCK};
 use crate::stages::Stage;
-use crate::support::joint::{self, BLOCK};
 use crate::support::mutants::Mutant;
 
 /// Mutants that are compiled together at most: texts with many of them are nested deeply, and drivers take longer for them than for several texts.
@@ -81,7 +81,7 @@ impl Together {
 pub fn grouped(stage: &Stage, file: &File) -> bool {
     let bracketed = joint::bracketed(&file.text, &file.mutants);
     let expressions = |text: &str| {
-        let plan = stage.with(&file.name, text, |_| None).unwrap_or_else(|| panic!("{}: brackets", file.name));
+        let plan = stage.with(&file.name, text, |_| Vec::new()).unwrap_or_else(|| panic!("{}: brackets", file.name));
         let passes = plan.kernels.iter().flat_map(|kernel| &kernel.passes).map(|pass| pass.shader.module().clone());
         let functions = |module: naga::Module| {
             let entries: Vec<_> =
@@ -95,10 +95,10 @@ pub fn grouped(stage: &Stage, file: &File) -> bool {
 }
 
 /// The block that chooses, at the first binding that a shader leaves free.
-fn declaration(shader: &Shader) -> Option<Source> {
+fn declaration(shader: &Shader) -> Vec<Source> {
     let group = shader.reflection().bindings.iter().filter(|binding| binding.group == 0);
     let free = group.map(|binding| binding.binding + 1).max().unwrap_or(0);
-    Some(Source::theirs(BLOCK.into(), joint::declaration(0, free)))
+    vec![Source::theirs(BLOCK.into(), joint::declaration(0, free))]
 }
 
 /// Those of the mutants that a stage does not notice.

@@ -6,7 +6,6 @@ pub mod choices;
 pub mod columns;
 pub mod equivalents;
 pub mod fluids;
-pub mod joint;
 pub mod machines;
 pub mod mutants;
 pub mod scenes;

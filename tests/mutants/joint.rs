@@ -7,7 +7,7 @@ use std::ops::Range;
 use naga::Statement;
 use naga::valid::{Capabilities, GlobalUse, ValidationFlags, Validator};
 
-use super::mutants::Mutant;
+use crate::support::mutants::Mutant;
 
 /// The functions of a shader that are not called twice: they write storage, or what a pointer of theirs points to, or they call and loop, so that a
 /// text with many copies of them would grow from call to call.
@@ -206,9 +206,8 @@ fn left(code: &str, at: usize, own: u32) -> usize {
         place -= 1;
         match bytes[place] {
             b')' | b']' => open += 1,
-            b'(' | b'[' if open == 0 => break,
+            b'(' | b'[' | b',' | b';' | b'{' | b'}' if open == 0 => break,
             b'(' | b'[' => open -= 1,
-            b',' | b';' | b'{' | b'}' if open == 0 => break,
             b if open == 0 && name(b) => {
                 let from = bytes[..place].iter().rposition(|b| !name(*b)).map_or(0, |last| last + 1);
                 if ["return", "if", "while", "switch", "case", "else", "in"].contains(&&code[from..=place]) {
@@ -240,9 +239,8 @@ fn right(code: &str, from: usize, own: u32) -> usize {
     while place < bytes.len() {
         match bytes[place] {
             b'(' | b'[' => open += 1,
-            b')' | b']' if open == 0 => break,
+            b')' | b']' | b',' | b';' | b'{' | b'}' if open == 0 => break,
             b')' | b']' => open -= 1,
-            b',' | b';' | b'{' | b'}' if open == 0 => break,
             b' ' | b'\n' => {
                 place += 1;
                 continue;
