@@ -1,5 +1,5 @@
-//! Many mutants in one text. Each stands beside what it changes, and a number in a uniform block chooses one of them, so that a driver compiles
-//! all of them at once: `a + b` becomes `select(a + b, a - b, mutant_choice.number.x == 3u)`.
+//! Many mutants in one text. Each stands beside what it changes, and a number in a buffer chooses one of them, so that a driver compiles
+//! all of them at once: `a + b` becomes `select(a + b, a - b, mutant_choice[0] == 3u)`.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
@@ -31,20 +31,18 @@ pub fn single(module: &naga::Module) -> BTreeSet<String> {
     module.functions.iter().filter(once).filter_map(|(_, function)| function.name.clone()).collect()
 }
 
-/// The uniform block with the number of the mutant.
-pub const BLOCK: &str = "mutant_choice";
+/// The buffer with the number of the mutant. It is none of uniforms: lavapipe of Mesa 22.2 to 23.0 compiles anew for each value of a uniform on
+/// which branches depend, and ends the process where there are several.
+pub const BUFFER: &str = "mutant_choice";
 
-/// The declaration of the block, at a binding that is free.
+/// The declaration of the buffer, at a binding that is free.
 pub fn declaration(group: u32, binding: u32) -> String {
-    format!(
-        "struct MutantChoice {{ number: vec4u }}\n@group({group}) @binding({binding}) var<uniform> {BLOCK}: MutantChoice;\n"
-    )
+    format!("@group({group}) @binding({binding}) var<storage, read> {BUFFER}: array<u32>;\n")
 }
 
-/// The contents of the block: this mutant, or none of them.
-pub fn choose(mutant: Option<usize>) -> Vec<u8> {
-    let number = mutant.map_or(u32::MAX, |mutant| u32::try_from(mutant).expect("few mutants"));
-    bytemuck::cast_slice(&[number, 0, 0, 0]).to_vec()
+/// The number that chooses this mutant, or none of them.
+pub fn choice(mutant: Option<usize>) -> u32 {
+    mutant.map_or(u32::MAX, |mutant| u32::try_from(mutant).expect("few mutants"))
 }
 
 /// A part of the text that a mutant changes, as small as can be chosen as a whole.
@@ -75,7 +73,7 @@ pub fn joined(text: &str, mutants: &[Mutant], wanted: &[usize], copied: &dyn Fn(
         numbers.iter().fold(part, |part, number| {
             let Mutant { at, old, new, .. } = &mutants[*number];
             let changed = [&text[site.range.start..*at], new, &text[at + old.len()..site.range.end]].concat();
-            let chosen = format!("{BLOCK}.number.x == {number}u");
+            let chosen = format!("{BUFFER}[0] == {number}u");
             if site.statement {
                 format!("if ({chosen}) {{ {changed} }} else {{ {part} }}")
             } else {

@@ -18,7 +18,7 @@ use motes::{Gpu, Setup, Simulation, wgpu};
 use crate::support::machines::{alone, cut, kernel, machines};
 use crate::support::states::{force, integrator};
 use crate::support::{self, Shared};
-use crate::{alarms, columns, laws, primitives};
+use crate::{alarms, columns, joint, laws, primitives};
 
 /// Large, and not a round number: what is wrong in a step shows.
 const DT: f64 = 0.37;
@@ -90,13 +90,13 @@ impl Stage {
     }
     /// The same; what is wrong, if anything.
     pub fn fault(&self, plan: &Plan) -> Option<String> {
-        self.verdict(plan).unwrap_or_else(|error| Some(error.to_string()))
+        self.verdict(plan, None).unwrap_or_else(|error| Some(error.to_string()))
     }
-    /// The same.
+    /// The same, for a mutant of several that are compiled together.
     ///
     /// # Errors
     /// Those of the device, which may have been too slow.
-    pub fn verdict(&self, plan: &Plan) -> Result<Option<String>, motes::Error> {
+    pub fn verdict(&self, plan: &Plan, mutant: Option<Option<usize>>) -> Result<Option<String>, motes::Error> {
         let mut simulation = self.simulation.borrow_mut();
         let count = simulation.count();
         let gpu = simulation.backend();
@@ -104,6 +104,10 @@ impl Stage {
             gpu.write_bytes(name, 0, bytes).expect("a field");
         }
         gpu.set_world(self.clock).expect("a clock");
+        if let Some(mutant) = mutant {
+            gpu.compile(plan)?;
+            gpu.write_bytes(joint::BUFFER, 0, bytemuck::bytes_of(&joint::choice(mutant)))?;
+        }
         if let Some((field, want)) = &self.expected {
             let same = Self::holds(gpu, plan, field, want)?;
             return Ok((!same).then(|| format!("{field} is not what was expected")));

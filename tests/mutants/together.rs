@@ -5,15 +5,15 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use motes::kernel::{Access, Plan, Shader, Source};
 
-use crate::joint::{self, BLOCK};
+use crate::joint::{self, BUFFER};
 use crate::stages::Stage;
 use crate::support::mutants::Mutant;
 
 /// Mutants that are compiled together at most: texts with many of them are nested deeply, and drivers take longer for them than for several texts.
 const MOST: usize = 24;
 
-/// Uniform blocks of a shader to which the one that chooses is added: with a fifth lavapipe of Mesa 22.3 ends the process.
-const UNIFORMS: usize = 3;
+/// Storage buffers of a shader, at most, by the limits of WebGPU.
+const STORAGE: usize = 8;
 
 /// How often a stage was shown a mutant among others, and alone.
 pub static JOINED: AtomicUsize = AtomicUsize::new(0);
@@ -35,15 +35,16 @@ struct Together {
 impl Together {
     /// Those of the mutants that compile together, if there are two and the stage is good while none of them is chosen.
     fn of(stage: &Stage, file: &File, wanted: &[usize]) -> Option<Self> {
-        let uniforms = |shader: &Shader| {
-            shader.reflection().bindings.iter().filter(|binding| binding.access == Access::Uniform).count()
+        let storage = |shader: &Shader| {
+            shader.reflection().bindings.iter().filter(|binding| binding.access != Access::Uniform).count()
         };
-        if stage.shaders(&file.name).any(|shader| uniforms(shader) > UNIFORMS) {
+        if stage.shaders(&file.name).any(|shader| storage(shader) >= STORAGE) {
             return None;
         }
         let single: BTreeSet<String> = stage.shaders(&file.name).flat_map(|s| joint::single(s.module())).collect();
         let together = Self::compiled(stage, file, wanted, &single)?;
-        (together.inside.len() > 1 && stage.good(&together.choosing(None))).then_some(together)
+        (together.inside.len() > 1 && stage.verdict(&together.plan, Some(None)).is_ok_and(|fault| fault.is_none()))
+            .then_some(together)
     }
     /// As many as compile: where all of them do not, the halves are tried.
     fn compiled(stage: &Stage, file: &File, wanted: &[usize], single: &BTreeSet<String>) -> Option<Self> {
@@ -52,7 +53,7 @@ impl Together {
             return None;
         }
         if let Some(plan) = stage.with(&file.name, &text, declaration) {
-            return Some(Self { plan, inside: inside.into_iter().collect() });
+            return Some(Self { plan: with_buffer(plan), inside: inside.into_iter().collect() });
         }
         if inside.len() == 1 {
             return None;
@@ -62,19 +63,19 @@ impl Together {
         let (Some(first), Some(second)) = (&first, &second) else { return first.or(second) };
         let both: Vec<usize> = first.inside.union(&second.inside).copied().collect();
         let (text, inside) = joint::joined(&file.text, &file.mutants, &both, &|name| !single.contains(name));
-        let plan = stage.with(&file.name, &text, declaration)?;
+        let plan = with_buffer(stage.with(&file.name, &text, declaration)?);
         Some(Self { plan, inside: inside.into_iter().collect() })
     }
-    /// The plan of one mutant, or of none.
-    fn choosing(&self, mutant: Option<usize>) -> Plan {
-        let mut plan = self.plan.clone();
-        for pass in plan.kernels.iter_mut().flat_map(|kernel| &mut kernel.passes) {
-            if pass.shader.reflection().binding(BLOCK).is_some() {
-                pass.uniforms.push((BLOCK, joint::choose(mutant)));
-            }
+}
+
+/// The plan with one word for the choice.
+fn with_buffer(mut plan: Plan) -> Plan {
+    for kernel in &mut plan.kernels {
+        if kernel.passes.iter().any(|pass| pass.shader.reflection().binding(BUFFER).is_some()) {
+            kernel.sizes.push((BUFFER.into(), 1));
         }
-        plan
     }
+    plan
 }
 
 /// Whether what mutants of a file change is chosen as the language groups it: brackets around all of it change nothing.
@@ -94,11 +95,11 @@ pub fn grouped(stage: &Stage, file: &File) -> bool {
     expressions(&bracketed) == expressions(&file.text)
 }
 
-/// The block that chooses, at the first binding that a shader leaves free.
+/// The buffer that chooses, at the first binding that a shader leaves free.
 fn declaration(shader: &Shader) -> Vec<Source> {
     let group = shader.reflection().bindings.iter().filter(|binding| binding.group == 0);
     let free = group.map(|binding| binding.binding + 1).max().unwrap_or(0);
-    vec![Source::theirs(BLOCK.into(), joint::declaration(0, free))]
+    vec![Source::theirs(BUFFER.into(), joint::declaration(0, free))]
 }
 
 /// Those of the mutants that a stage does not notice.
@@ -118,7 +119,7 @@ fn few_unnoticed(stage: &Stage, file: &File, mutants: &[usize]) -> Vec<usize> {
         // One that is too slow in company may be quick enough alone.
         Some(all) if all.inside.contains(mutant) => {
             JOINED.fetch_add(1, Ordering::Relaxed);
-            stage.verdict(&all.choosing(Some(*mutant))).map_or_else(|_| alone(*mutant), |fault| fault.is_none())
+            stage.verdict(&all.plan, Some(Some(*mutant))).map_or_else(|_| alone(*mutant), |fault| fault.is_none())
         }
         _ => {
             APART.fetch_add(1, Ordering::Relaxed);
