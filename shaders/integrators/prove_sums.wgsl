@@ -11,6 +11,7 @@ fn prove_sums() {
     let larger = abs(a) > abs(b);
     let fast = fast_two_sum(select(b, a, larger), select(a, b, larger));
     let right = all(sum.high == summands[2].xyz) && all(sum.low == summands[3].xyz)
-        && all(fast.high == summands[2].xyz) && all(fast.low == summands[3].xyz);
+        && all(fast.high == summands[2].xyz)
+        && all(fast.low == summands[3].xyz);
     if !right { atomicStore(&alarm[10], 1u); }
 }

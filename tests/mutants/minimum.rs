@@ -25,6 +25,7 @@ pub const EQUIVALENT: &[Equivalent] = &[
     ),
     same("updaters/minimize.wgsl", "let downhill = total.y", "<", "<=", "any number near the largest serves"),
     same("minimize/apply.wgsl", "override MOVE: f32 = 1.0;", "1.0", "1.5", ALWAYS_SET),
+    same("minimize/measure.wgsl", "mass > 0.0", ">", ">=", "without mass all parts are 0"),
     same("minimize/apply.wgsl", "if size > 0.0", ">", ">=", "no particle is without velocity and force"),
     same("minimize/apply.wgsl", "if long * size > most", ">", ">=", "at the limit it is the limit either way"),
 ];
@@ -54,7 +55,19 @@ pub fn all(device: &Device, stages: &mut Vec<Stage>) {
                     let plan = alone(kernel);
                     fill(&mut simulation, &plan);
                     if plan.kernels[0].name == "minimize apply" {
-                        let some: Vec<Vec4> = (0..FEW).map(|i| if i == 20 { 1e30 } else { 1.0 } * places[i]).collect();
+                        // Squares that are not finite, of each component.
+                        let scale = |i: usize| {
+                            if (20..23).contains(&i) {
+                                Vec4::select(
+                                    glam::BVec4A::new(i == 20, i == 21, i == 22, false),
+                                    Vec4::splat(1e30),
+                                    Vec4::ONE,
+                                )
+                            } else {
+                                Vec4::ONE
+                            }
+                        };
+                        let some: Vec<Vec4> = (0..FEW).map(|i| scale(i) * places[i]).collect();
                         simulation.backend().write_bytes("acceleration", 0, bytemuck::cast_slice(&some)).expect("a");
                     }
                     stages.push(Stage::of("minimize", simulation, plan));
