@@ -92,11 +92,11 @@ impl Stage {
     pub fn fault(&self, plan: &Plan) -> Option<String> {
         self.verdict(plan, None).unwrap_or_else(|error| Some(error.to_string()))
     }
-    /// The same, for a mutant of several that are compiled together.
+    /// The same, for the [`joint::choice`] of a mutant where several are compiled together.
     ///
     /// # Errors
     /// Those of the device, which may have been too slow.
-    pub fn verdict(&self, plan: &Plan, mutant: Option<Option<usize>>) -> Result<Option<String>, motes::Error> {
+    pub fn verdict(&self, plan: &Plan, choice: Option<u32>) -> Result<Option<String>, motes::Error> {
         let mut simulation = self.simulation.borrow_mut();
         let count = simulation.count();
         let gpu = simulation.backend();
@@ -104,9 +104,9 @@ impl Stage {
             gpu.write_bytes(name, 0, bytes).expect("a field");
         }
         gpu.set_world(self.clock).expect("a clock");
-        if let Some(mutant) = mutant {
+        if let Some(choice) = choice {
             gpu.compile(plan)?;
-            gpu.write_bytes(joint::BUFFER, 0, bytemuck::bytes_of(&joint::choice(mutant)))?;
+            gpu.write_bytes(joint::BUFFER, 0, bytemuck::bytes_of(&choice))?;
         }
         if let Some((field, want)) = &self.expected {
             let same = Self::holds(gpu, plan, field, want)?;

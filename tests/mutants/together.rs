@@ -43,8 +43,9 @@ impl Together {
         }
         let single: BTreeSet<String> = stage.shaders(&file.name).flat_map(|s| joint::single(s.module())).collect();
         let together = Self::compiled(stage, file, wanted, &single)?;
-        (together.inside.len() > 1 && stage.verdict(&together.plan, Some(None)).is_ok_and(|fault| fault.is_none()))
-            .then_some(together)
+        (together.inside.len() > 1
+            && stage.verdict(&together.plan, Some(joint::choice(None))).is_ok_and(|fault| fault.is_none()))
+        .then_some(together)
     }
     /// As many as compile: where all of them do not, the halves are tried.
     fn compiled(stage: &Stage, file: &File, wanted: &[usize], single: &BTreeSet<String>) -> Option<Self> {
@@ -119,7 +120,9 @@ fn few_unnoticed(stage: &Stage, file: &File, mutants: &[usize]) -> Vec<usize> {
         // One that is too slow in company may be quick enough alone.
         Some(all) if all.inside.contains(mutant) => {
             JOINED.fetch_add(1, Ordering::Relaxed);
-            stage.verdict(&all.plan, Some(Some(*mutant))).map_or_else(|_| alone(*mutant), |fault| fault.is_none())
+            stage
+                .verdict(&all.plan, Some(joint::choice(Some(*mutant))))
+                .map_or_else(|_| alone(*mutant), |fault| fault.is_none())
         }
         _ => {
             APART.fetch_add(1, Ordering::Relaxed);
