@@ -65,7 +65,7 @@ fn refuse(root: &Table) -> Result<(), Error> {
             || table.get("grains").and_then(Value::as_bool) == Some(true)
     };
     if tables(root, "force").any(touch) {
-        return refused("the scene has grains, whose radius its walls and its time step fit");
+        return refused("the scene has grains, and its walls and its time step fit their radius");
     }
     if tables(root, "force").any(|table| table.contains_key("pairs")) {
         return refused("the scene has coefficients of pairs of species (`pairs`), as molecules have");

@@ -3,7 +3,7 @@
 use crate::error::Error;
 use crate::kernel::{Kernel, Pass, Problem, Reference, Shader, Source};
 
-/// Joins the shader `file`, whose `is_held` is given, with its reference; it runs over all rows.
+/// Joins the shader `file`, which may call `is_held`, with its reference; it runs over all rows.
 pub(crate) fn each(name: &str, file: Source, problem: &Problem, reference: Reference) -> Result<Kernel, Error> {
     let (holding, tables) = problem.holding();
     let shader = Shader::join(&[crate::shader!("world.wgsl"), holding, file])?;

@@ -58,7 +58,7 @@ fn a_castle_stands_by_its_bridges_and_is_measured() {
     assert!(held > 3.0 && loose < 2.0, "{held} {loose}");
 }
 
-/// Without liquid the law is the linear one of `contact`, whose history is in slots too: the same way but for rounding. Walls are left out,
+/// Without liquid the law is the linear one of `contact`, which keeps its history in slots too: the same way but for rounding. Walls are left out,
 /// so that the law alone declares what grains have.
 #[test]
 fn a_dry_castle_falls_as_by_the_built_in_contact() {
