@@ -6,6 +6,8 @@
 //   rolling     τ = −kᵣ ψ − γᵣ ωᵣ,  ψ' = ωᵣ,  kᵣ = 2.25 N / δ (μᵣ R)²,  |τ| ≤ μᵣ R (N + γ v·n), where ψ is set to give that torque
 //               (Ai et al. 2011);  or of constant size, τ = −μᵣ R (N + γ v·n) ωᵣ / |ωᵣ|
 //   torsion     the same about n, with μₜ and 2/7 of the moment, always by a spring
+//   energy      of the springs, ∫ N dδ + kₜ ξ² / 2 + kᵣ ψ² / 2, as they are at the start of the step
+//   heat        the power of all these against the motion, less what springs gain; the speed of the middle of the kick is v − F dt / 2 m
 struct Pair {
     @size(8) unused_word: u32,
     stiffness: f32, damping: f32, friction: f32, shear: f32, drag: f32,
@@ -16,7 +18,13 @@ struct Meeting { n: vec3f, overlap: f32, v: vec3f, radius: f32, spin: vec3f, mas
 // What a contact keeps from step to step: ξ, ψ across n, and ψ about n.
 struct Wound { slide: vec3f, roll: vec3f, twist: f32 }
 // `turn` is the torque beside that of the tangential force.
-struct Touch { push: vec3f, turn: vec3f, wound: Wound }
+struct Touch { push: vec3f, turn: vec3f, wound: Wound, energy: f32, heat: f32 }
+
+// What a spring of stiffness k gains in a step in which it is wound from one length to another, and was softer by a part of k, as a power.
+// Written by differences, which lose fewer digits than that of two squares.
+fn gain(k: f32, softer: f32, last: vec3f, next: vec3f) -> f32 {
+    return 0.5 * k * (dot(next - last, next + last) + softer * dot(last, last)) / world.dt;
+}
 
 fn touch(pair: Pair, at: Meeting, last: Wound) -> Touch {
     let n = at.n;
@@ -27,6 +35,13 @@ fn touch(pair: Pair, at: Meeting, last: Wound) -> Touch {
     let approach = dot(at.v, n);
     let slide = at.v - approach * n;
     let normal = secant * at.overlap + damping * approach;
+    // By Hertz all springs were softer by this where the overlap was smaller.
+    let deeper = world.dt * approach / at.overlap;
+    let softer = select(0.0, min(deeper / (1.0 + sqrt(max(1.0 - deeper, 0.0))), 1.0), hertz);
+    var impulse = 0.0;
+    if at.mass > 0.0 { impulse = 0.5 * world.dt / at.mass; }
+    var energy = select(0.5, 0.4, hertz) * secant * at.overlap * at.overlap;
+    var heat = damping * approach * (approach - impulse * normal);
     // Where damping pulls, there is nothing to rub on.
     let pressed = max(normal, 0.0);
 
@@ -40,6 +55,9 @@ fn touch(pair: Pair, at: Meeting, last: Wound) -> Touch {
         tangential *= limit / size;
         if spring > 0.0 { wound = -(tangential + drag) / spring; }
     }
+    energy += 0.5 * spring * dot(last.slide, last.slide);
+    // Where two spheres touch they are 2/7 as heavy across.
+    heat -= dot(tangential, slide + 3.5 * impulse * tangential) + gain(spring, softer, last.slide, wound);
 
     let about = dot(at.spin, n);
     let rolls = at.spin - about * n;
@@ -58,10 +76,13 @@ fn touch(pair: Pair, at: Meeting, last: Wound) -> Touch {
             turn *= rolling_limit / most;
             roll = -(turn + slowed) / back;
         }
+        energy += 0.5 * back * dot(last.roll, last.roll);
+        heat -= gain(back, softer, last.roll, roll);
     } else {
         let speed = length(rolls);
         if speed > 0.0 { turn = (-rolling_limit / speed) * rolls; }
     }
+    heat -= dot(turn, rolls);
 
     var twist = 0.0;
     if pair.torsion > 0.0 {
@@ -78,6 +99,20 @@ fn touch(pair: Pair, at: Meeting, last: Wound) -> Touch {
             twist = -(torsion + slowed) / back;
         }
         turn += torsion * n;
+        energy += 0.5 * back * last.twist * last.twist;
+        heat -= torsion * about + gain(back, softer, vec3f(last.twist), vec3f(twist)) / 3.0;
     }
-    return Touch(tangential - normal * n, turn, Wound(wound, roll, twist));
+    return Touch(tangential - normal * n, turn, Wound(wound, roll, twist), energy, heat);
+}
+
+// The power of what springs still held where spheres do not touch any more: `at.overlap` is below 0, and was above it a step before.
+fn left(pair: Pair, at: Meeting, last: Wound) -> f32 {
+    let hertz = pair.hertz > 0u;
+    let overlap = at.overlap - world.dt * dot(at.v, at.n);
+    let stiffness = pair.stiffness * select(1.0, sqrt(at.radius * overlap), hertz);
+    let secant = select(1.0, 0.6666667, hertz) * stiffness;
+    let roll = 1.5 * pair.rolling * at.radius;
+    let twist = 1.5 * pair.torsion * at.radius;
+    let turned = roll * roll * dot(last.roll, last.roll) + twist * twist * last.twist * last.twist;
+    return 0.5 * (pair.shear * stiffness * dot(last.slide, last.slide) + secant * turned) / world.dt;
 }

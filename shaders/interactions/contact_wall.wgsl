@@ -12,7 +12,7 @@ struct Frame { centre: vec3f, pivot: vec3f, turn: vec4f, velocity: vec3f, spin: 
 
 @group(3) @binding(0) var<uniform> params: Params;
 @group(3) @binding(1) var<storage, read> angular_velocity: array<vec4f>; // xyz, radius
-@group(3) @binding(2) var<storage, read_write> torque: array<vec4f>;
+@group(3) @binding(2) var<storage, read_write> torque: array<vec4f>; // xyz, dissipation
 @group(3) @binding(3) var<storage, read_write> wall_history: array<f32>;
 
 override WORDS: u32 = 3u;
@@ -53,6 +53,8 @@ fn force(me: Particle) -> vec4f {
     );
     var push = vec3f();
     var turn = vec3f();
+    var energy = 0.0;
+    var heat = 0.0;
     // A particle without mass is moved by nothing.
     let meets = me.mass > 0.0 && mine.w > 0.0 && is_of(me.index, params.species);
     // Planes have no end; all others have images in a periodic box.
@@ -63,20 +65,28 @@ fn force(me: Particle) -> vec4f {
         let s = surface(contact, r, frame);
         let overlap = mine.w - s.w;
         var kept = Wound();
-        if meets && overlap > 0.0 {
-            let n = -s.xyz;
-            let arm = mine.w - 0.5 * overlap;
-            let moving = frame.velocity + cross(frame.spin, frame.centre + r + arm * n - frame.pivot);
-            let v = velocity_of(me) + arm * cross(mine.xyz, n) - moving;
+        let n = -s.xyz;
+        let arm = mine.w - 0.5 * overlap;
+        let moving = frame.velocity + cross(frame.spin, frame.centre + r + arm * n - frame.pivot);
+        let v = velocity_of(me) + arm * cross(mine.xyz, n) - moving;
+        let touched = overlap > world.dt * dot(v, n);
+        if meets && (overlap > 0.0 || touched) {
             let rest = 1.4 * me.mass * mine.w * mine.w;
             let last = place(me.index, world.step, contact);
             let slide = vec3f(recall(last, 0u), recall(last, 1u), recall(last, 2u));
             let roll = vec3f(recall(last, 3u), recall(last, 4u), recall(last, 5u));
             let at = Meeting(n, overlap, v, mine.w, mine.xyz - frame.spin, me.mass, rest);
-            let contact_force = touch(pair, at, Wound(slide, roll, recall(last, 6u)));
-            push += contact_force.push;
-            turn += arm * cross(n, contact_force.push) + contact_force.turn;
-            kept = contact_force.wound;
+            let wound = Wound(slide, roll, recall(last, 6u));
+            if overlap > 0.0 {
+                let contact_force = touch(pair, at, wound);
+                push += contact_force.push;
+                turn += arm * cross(n, contact_force.push) + contact_force.turn;
+                energy += contact_force.energy;
+                heat += contact_force.heat;
+                kept = contact_force.wound;
+            } else {
+                heat += left(pair, at, wound);
+            }
         }
         remember(next, 0u, kept.slide.x);
         remember(next, 1u, kept.slide.y);
@@ -86,7 +96,7 @@ fn force(me: Particle) -> vec4f {
         remember(next, 5u, kept.roll.z);
         remember(next, 6u, kept.twist);
     }
-    torque[me.index] += vec4f(turn, 0.0);
-    if meets { return vec4f(push / me.mass, 0.0); }
+    torque[me.index] += vec4f(turn, heat);
+    if meets { return vec4f(push, energy) / me.mass; }
     return vec4f();
 }

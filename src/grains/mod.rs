@@ -27,9 +27,19 @@ pub use wall::{Surface, own};
 use crate::kernel::{Column, Kind};
 use crate::rotation;
 
-/// The columns of grains: those of rigid bodies, and a radius, beside the angular velocity in its buffer.
+/// The columns of grains: those of rigid bodies, a radius, beside the angular velocity in its buffer, and the energy that their contacts
+/// have dissipated, beside the moments of inertia in theirs.
 #[must_use]
 pub fn columns() -> Vec<Column> {
     let radius = Column::new("radius", Kind::Scalar, "length", "of the sphere that others touch");
-    [rotation::columns(), vec![radius.within("angular_velocity", 3).required()]].concat()
+    let lost = Column::new(
+        "dissipated",
+        Kind::Scalar,
+        "mass length² / time²",
+        "what its contacts have dissipated, a half of each",
+    );
+    let rate =
+        Column::new("dissipation", Kind::Scalar, "mass length² / time³", "the power that its contacts dissipate");
+    let energy = [lost.within("inertia", 3).with_rate("dissipation"), rate.within("torque", 3).summed()];
+    [rotation::columns(), vec![radius.within("angular_velocity", 3).required()], energy.to_vec()].concat()
 }

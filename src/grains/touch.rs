@@ -46,6 +46,10 @@ pub struct Touch {
     pub turn: DVec3,
     /// What it keeps for the next step.
     pub wound: Wound,
+    /// The energy of its springs, as they are at the start of the step \[mass length² / time²\].
+    pub energy: f64,
+    /// The power that dashpots, sliding and rolling dissipate \[mass length² / time³\].
+    pub heat: f64,
 }
 
 impl Wound {
@@ -90,6 +94,17 @@ impl Material {
         let normal = secant * at.overlap + damping * at.v.dot(n);
         let pressed = normal.max(0.0);
 
+        // By Hertz all springs were softer by this where the overlap was smaller.
+        let (filled, before) = match self.model {
+            Model::Linear => (0.5, 1.0),
+            Model::Hertz => (0.4, (1.0 - dt * at.v.dot(n) / at.overlap).max(0.0).sqrt()),
+        };
+        // What a spring gains in the step, as a power.
+        let gain = |k: f64, last: f64, next: f64| if dt > 0.0 { 0.5 * k * (next - before * last) / dt } else { 0.0 };
+        let impulse = if at.mass > 0.0 { 0.5 * dt / at.mass } else { 0.0 };
+        let mut energy = filled * secant * at.overlap.powi(2);
+        let mut heat = damping * at.v.dot(n) * (at.v.dot(n) - impulse * normal);
+
         let (limit, spring, drag) =
             (self.friction * pressed, self.shear * stiffness, self.drag * damping * across(at.v));
         let mut slide = across(last.slide) + dt * across(at.v);
@@ -100,6 +115,10 @@ impl Material {
                 slide = -(tangential + drag) / spring;
             }
         }
+        energy += 0.5 * spring * last.slide.length_squared();
+        // Where two spheres touch they are 2/7 as heavy across.
+        heat -= tangential.dot(across(at.v) + 3.5 * impulse * tangential);
+        heat -= gain(spring, last.slide.length_squared(), slide.length_squared());
 
         let (rolls, most) = (across(at.spin), self.rolling * at.radius * pressed);
         let (mut roll, mut turn) = (DVec3::ZERO, DVec3::ZERO);
@@ -112,9 +131,12 @@ impl Material {
                 turn = turn.normalize() * most;
                 roll = -(turn + slowed) / back;
             }
+            energy += 0.5 * back * last.roll.length_squared();
+            heat -= gain(back, last.roll.length_squared(), roll.length_squared());
         } else if rolls.length() > 0.0 {
             turn = -most * rolls.normalize();
         }
+        heat -= turn.dot(rolls);
 
         let mut twist = 0.0;
         if self.torsion > 0.0 {
@@ -129,8 +151,27 @@ impl Material {
                 twist = -(torsion + slowed) / back;
             }
             turn += torsion * n;
+            energy += 0.5 * back * last.twist.powi(2);
+            heat -= torsion * about + gain(back, last.twist.powi(2), twist.powi(2));
         }
-        Touch { push: tangential - normal * n, turn, wound: Wound { slide, roll, twist } }
+        Touch { push: tangential - normal * n, turn, wound: Wound { slide, roll, twist }, energy, heat }
+    }
+    /// Whether spheres that do not touch did so a step before.
+    #[must_use]
+    pub fn has_ended(at: &Meeting, dt: f64) -> bool {
+        at.overlap <= 0.0 && at.overlap > dt * at.v.dot(at.n)
+    }
+    /// The power of what springs still held where a contact [has ended](Self::has_ended).
+    #[must_use]
+    pub fn left(&self, at: &Meeting, last: &Wound, dt: f64) -> f64 {
+        let overlap = at.overlap - dt * at.v.dot(at.n);
+        let (stiffness, part) = match self.model {
+            Model::Linear => (self.stiffness, 1.0),
+            Model::Hertz => (self.stiffness * (at.radius * overlap).sqrt(), 2.0 / 3.0),
+        };
+        let [roll, twist] = [self.rolling, self.torsion].map(|limit| (1.5 * limit * at.radius).powi(2));
+        let turned = roll * last.roll.length_squared() + twist * last.twist.powi(2);
+        0.5 * (self.shear * stiffness * last.slide.length_squared() + part * stiffness * turned) / dt
     }
 }
 

@@ -177,23 +177,26 @@ impl Surface {
                 let (out, distance) = self.face(contact, r, &frame, &world);
                 let overlap = mine.w - distance;
                 let mut kept = Wound::default();
+                let (n, arm) = (-out, mine.w - 0.5 * overlap);
+                let moving = frame.velocity + frame.spin.cross(frame.centre + r + arm * n - frame.pivot);
+                let at = Meeting {
+                    n,
+                    overlap,
+                    v: me.velocity + arm * mine.truncate().cross(n) - moving,
+                    radius: mine.w,
+                    spin: mine.truncate() - frame.spin,
+                    mass: me.mass,
+                    rest: moment(me.mass, mine.w),
+                };
+                let word = |word: usize| if word < words { history[place(half) + word] } else { 0.0 };
+                let last = Wound::of(word);
                 if meets && overlap > 0.0 {
-                    let (n, arm) = (-out, mine.w - 0.5 * overlap);
-                    let moving = frame.velocity + frame.spin.cross(frame.centre + r + arm * n - frame.pivot);
-                    let at = Meeting {
-                        n,
-                        overlap,
-                        v: me.velocity + arm * mine.truncate().cross(n) - moving,
-                        radius: mine.w,
-                        spin: mine.truncate() - frame.spin,
-                        mass: me.mass,
-                        rest: moment(me.mass, mine.w),
-                    };
-                    let word = |word: usize| if word < words { history[place(half) + word] } else { 0.0 };
-                    let touch = self.material.touch(&at, &Wound::of(word), world.dt);
-                    acceleration[me.index] += (touch.push / me.mass).extend(0.0);
-                    torque[me.index] += (arm * n.cross(touch.push) + touch.turn).extend(0.0);
+                    let touch = self.material.touch(&at, &last, world.dt);
+                    acceleration[me.index] += touch.push.extend(touch.energy) / me.mass;
+                    torque[me.index] += (arm * n.cross(touch.push) + touch.turn).extend(touch.heat);
                     kept = touch.wound;
+                } else if meets && Material::has_ended(&at, world.dt) {
+                    torque[me.index].w += self.material.left(&at, &last, world.dt);
                 }
                 let next = place(1 - half);
                 history[next..next + words].copy_from_slice(&kept.words()[..words.min(WORDS)]);

@@ -36,8 +36,8 @@ pub const KEYS: &[Key] = &[
 /// sliding winds up, bounded by Coulomb's friction (Cundall & Strack, Géotechnique 29, 47, 1979; Mindlin, J. Appl. Mech. 16, 259, 1949;
 /// Luding, Granular Matter 10, 235, 2008), resistance to rolling (Ai et al., Powder Technol. 206, 269, 2011) and to torsion.
 /// Spheres have their `radius`, and turn by the torques, with their `inertia`. The dashpot is that which makes the
-/// coefficient of restitution what is asked for, whatever the masses and the speed (Tsuji et al., Powder Technol. 71, 239, 1992). Springs
-/// hold energy that is not measured.
+/// coefficient of restitution what is asked for, whatever the masses and the speed (Tsuji et al., Powder Technol. 71, 239, 1992). The
+/// energy of its springs is part of the potential, and what it dissipates is summed up in `dissipated`.
 #[derive(Clone)]
 pub struct Contact(Settings);
 
@@ -46,6 +46,8 @@ pub struct Contact(Settings);
 struct Sum {
     force: DVec3,
     torque: DVec3,
+    energy: f64,
+    heat: f64,
 }
 
 /// The material of a pair of species.
@@ -98,9 +100,9 @@ impl Component for Contact {
         };
         let finish = |me: &Particle, sum: &Sum, _: &World, outcome: &mut Outcome| {
             if me.mass > 0.0 {
-                outcome.accelerate((sum.force / me.mass).extend(0.0));
+                outcome.accelerate(sum.force.extend(sum.energy) / me.mass);
             }
-            outcome.add("torque", sum.torque);
+            outcome.add("torque", sum.torque.extend(sum.heat));
         };
         let skin = Some(self.0.number("skin")).filter(|skin| *skin > 0.0);
         let (over, wgsl) = ((self.0.number("range"), skin, slots), crate::shader!("interactions/contact.wgsl"));
@@ -114,7 +116,7 @@ fn touch(material: &Material, (me, you): (&Particle, &Particle), r: DVec3, world
     let distance = r.length();
     let overlap = mine.w + yours.w - distance;
     // Two particles at the same position have no direction between them.
-    if overlap <= 0.0 || distance <= 0.0 || mine.w <= 0.0 || yours.w <= 0.0 {
+    if distance <= 0.0 || mine.w <= 0.0 || yours.w <= 0.0 {
         return;
     }
     let n = r / distance;
@@ -130,8 +132,19 @@ fn touch(material: &Material, (me, you): (&Particle, &Particle), r: DVec3, world
         mass: reduced(me.mass, you.mass),
         rest: reduced(moment(me.mass, mine.w), moment(you.mass, yours.w)),
     };
-    let touch = material.touch(&at, &Wound::of(|word| memory.recall(word)), world.dt);
+    // Each has half of what a pair has, and all of it where the other has no mass. The visit halves energies.
+    let share = if me.mass <= 0.0 { 0.0 } else if you.mass > 0.0 { 0.5 } else { 1.0 };
+    let last = Wound::of(|word| memory.recall(word));
+    if overlap <= 0.0 {
+        if Material::has_ended(&at, world.dt) {
+            sum.heat += share * material.left(&at, &last, world.dt);
+        }
+        return;
+    }
+    let touch = material.touch(&at, &last, world.dt);
     touch.wound.words().into_iter().enumerate().for_each(|(word, value)| memory.remember(word, value));
     sum.force += touch.push;
     sum.torque += arm * n.cross(touch.push) + touch.turn;
+    sum.energy += 2.0 * share * touch.energy;
+    sum.heat += share * touch.heat;
 }

@@ -20,6 +20,9 @@ pub const MEASURE: Measure = Measure {
         ("overlap", "the largest overlap, relative to the smaller of the two radii"),
         ("kinetic", "½ Σ m v² [mass length² / time²]"),
         ("rotational", "½ Σ I ω² [mass length² / time²]"),
+        ("potential", "the potential energy, that of the springs of contacts too [mass length² / time²]"),
+        ("dissipated", "what contacts have dissipated, those with walls too [mass length² / time²]"),
+        ("total", "the sum of the four: constant, but for the work of moving walls, what a drain removes, and the order of the step [mass length² / time²]"),
         ("top", "the highest point of any, along z [length]"),
         ("reach", "the largest distance of the centre of a grain that touches another from the z axis [length]"),
     ],
@@ -71,7 +74,11 @@ impl Series for Granular {
         let top = top.fold(f64::NEG_INFINITY, f64::max);
         let reach = all.iter().filter(|i| contacts[**i] > 0).map(|i| state.position()[*i].truncate().length());
         let reach = reach.fold(0.0, f64::max);
-        let numbers = [2.0 * pairs.len() as f64 / count, free / count, overlap, kinetic, rotational];
+        let potential: f64 = state.energies()?.iter().sum();
+        let dissipated: f64 = state.scalar("dissipated").unwrap_or_default().iter().sum();
+        let total = kinetic + rotational + potential + dissipated;
+        let [touches, free] = [2.0 * pairs.len() as f64 / count, free / count];
+        let numbers = [touches, free, overlap, kinetic, rotational, potential, dissipated, total];
         let ends = [if all.is_empty() { 0.0 } else { top }, reach];
         let cells = numbers.into_iter().chain(ends).map(Into::into);
         Ok(vec![std::iter::once((all.len() as u64).into()).chain(cells).collect()])

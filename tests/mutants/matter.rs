@@ -292,7 +292,7 @@ fn walls(device: &Device, stages: &mut Vec<Stage>) {
         let machine = simulation_at(device, &setup, 0).backend().machine();
         let plans = setup.plans(machine).expect("plans");
         for kernel in plans.step.kernels.into_iter().filter(|kernel| kernel.name.contains("wall")) {
-            stages.push(Stage::of("wall", simulation_at(device, &setup, 3), alone(kernel)).slack(6.0));
+            stages.push(Stage::of("wall", simulation_at(device, &setup, 3), alone(kernel)).slack(30.0));
         }
     }
 }

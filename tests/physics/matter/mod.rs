@@ -7,6 +7,7 @@
 #![allow(clippy::float_cmp, reason = "what does nothing is 0 to the bit")]
 
 mod collapse;
+mod energy;
 mod flows;
 mod grains;
 mod ions;
