@@ -105,10 +105,13 @@ fn touch(pair: Pair, at: Meeting, last: Wound) -> Touch {
     return Touch(tangential - normal * n, turn, Wound(wound, roll, twist), energy, heat);
 }
 
-// The power of what springs still held where spheres do not touch any more: `at.overlap` is below 0, and was above it a step before.
+// Whether spheres touch, or a contact may have ended in the last step: it parts them by less than a sixteenth of the reduced radius.
+fn may_touch(overlap: f32, radius: f32) -> bool { return overlap > -0.0625 * radius; }
+
+// The power of what springs still held a step before where spheres do not touch any more; 0 where they did not then.
 fn left(pair: Pair, at: Meeting, last: Wound) -> f32 {
     let hertz = pair.hertz > 0u;
-    let overlap = at.overlap - world.dt * dot(at.v, at.n);
+    let overlap = max(at.overlap - world.dt * dot(at.v, at.n), 0.0);
     let stiffness = pair.stiffness * select(1.0, sqrt(at.radius * overlap), hertz);
     let secant = select(1.0, 0.6666667, hertz) * stiffness;
     let roll = 1.5 * pair.rolling * at.radius;

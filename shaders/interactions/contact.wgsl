@@ -20,17 +20,16 @@ fn gather(me: Particle, you: Particle, r: vec3f, sum: ptr<function, Sum>) {
     let yours = angular_velocity[you.index];
     let distance = length(r);
     let overlap = mine.w + yours.w - distance;
+    let radius = reduced(mine.w, yours.w);
     // Two particles at the same position have no direction between them.
-    if distance > 0.0 && mine.w > 0.0 && yours.w > 0.0 {
+    if distance > 0.0 && mine.w > 0.0 && yours.w > 0.0 && may_touch(overlap, radius) {
         let n = r / distance;
         // From the centres to the middle of the overlap.
         let my_arm = mine.w - 0.5 * overlap;
         let your_arm = yours.w - 0.5 * overlap;
         let v = velocity_of(me) - velocity_of(you) + cross(my_arm * mine.xyz + your_arm * yours.xyz, n);
         let rest = reduced(moment(me.mass, mine.w), moment(you.mass, yours.w));
-        let at = Meeting(n, overlap, v, reduced(mine.w, yours.w), mine.xyz - yours.xyz, reduced(me.mass, you.mass), rest);
-        let touched = overlap > world.dt * dot(v, n);
-        if overlap <= 0.0 && !touched { return; }
+        let at = Meeting(n, overlap, v, radius, mine.xyz - yours.xyz, reduced(me.mass, you.mass), rest);
 
         let slide = vec3f(recall(you, 0u), recall(you, 1u), recall(you, 2u));
         let roll = vec3f(recall(you, 3u), recall(you, 4u), recall(you, 5u));

@@ -69,8 +69,7 @@ fn force(me: Particle) -> vec4f {
         let arm = mine.w - 0.5 * overlap;
         let moving = frame.velocity + cross(frame.spin, frame.centre + r + arm * n - frame.pivot);
         let v = velocity_of(me) + arm * cross(mine.xyz, n) - moving;
-        let touched = overlap > world.dt * dot(v, n);
-        if meets && (overlap > 0.0 || touched) {
+        if meets && may_touch(overlap, mine.w) {
             let rest = 1.4 * me.mass * mine.w * mine.w;
             let last = place(me.index, world.step, contact);
             let slide = vec3f(recall(last, 0u), recall(last, 1u), recall(last, 2u));

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use glam::{DQuat, DVec3, DVec4, Vec4};
 
-use super::{Material, Meeting, WORDS, Wound, moment};
+use super::{Material, Meeting, WORDS, Wound, may_touch, moment};
 use crate::error::Error;
 use crate::kernel::{ACCELERATION, Host, Kernel, Pass, Problem, Scalar, Shader, Source, World, time};
 use crate::motion::Motion;
@@ -195,7 +195,7 @@ impl Surface {
                     acceleration[me.index] += touch.push.extend(touch.energy) / me.mass;
                     torque[me.index] += (arm * n.cross(touch.push) + touch.turn).extend(touch.heat);
                     kept = touch.wound;
-                } else if meets && Material::has_ended(&at, world.dt) {
+                } else if meets && may_touch(overlap, mine.w) {
                     torque[me.index].w += self.material.left(&at, &last, world.dt);
                 }
                 let next = place(1 - half);

@@ -8,7 +8,7 @@ use super::pair_potential::rows;
 use super::{Component, Law, Properties};
 use crate::component::Largest;
 use crate::error::Error;
-use crate::grains::{self, Material, Meeting, Wound, moment, reduced};
+use crate::grains::{self, MARGIN, Material, Meeting, Wound, may_touch, moment, reduced};
 use crate::kernel::{Bounds, Column, World};
 use crate::settings::{Key, Kind, Settings, Value};
 use crate::visit::{Memory, Outcome, PairRow, PairTable, Particle};
@@ -105,7 +105,9 @@ impl Component for Contact {
             outcome.add("torque", sum.torque.extend(sum.heat));
         };
         let skin = Some(self.0.number("skin")).filter(|skin| *skin > 0.0);
-        let (over, wgsl) = ((self.0.number("range"), skin, slots), crate::shader!("interactions/contact.wgsl"));
+        // The largest reduced radius is a quarter of the largest sum of two.
+        let range = self.0.number("range") * (1.0 + 0.25 * MARGIN);
+        let (over, wgsl) = ((range, skin, slots), crate::shader!("interactions/contact.wgsl"));
         let law = Law::remembering("contact", over, wgsl, Vec::new(), &["acceleration", "torque"], gather, finish);
         vec![Law { reciprocal: true, pairs: Some(PairTable { rows: table }), ..law }]
     }
@@ -116,7 +118,8 @@ fn touch(material: &Material, (me, you): (&Particle, &Particle), r: DVec3, world
     let distance = r.length();
     let overlap = mine.w + yours.w - distance;
     // Two particles at the same position have no direction between them.
-    if distance <= 0.0 || mine.w <= 0.0 || yours.w <= 0.0 {
+    let radius = reduced(mine.w, yours.w);
+    if distance <= 0.0 || mine.w <= 0.0 || yours.w <= 0.0 || !may_touch(overlap, radius) {
         return;
     }
     let n = r / distance;
@@ -127,7 +130,7 @@ fn touch(material: &Material, (me, you): (&Particle, &Particle), r: DVec3, world
         n,
         overlap,
         v: me.velocity - you.velocity + (arm * spin + other * yours_spin).cross(n),
-        radius: reduced(mine.w, yours.w),
+        radius,
         spin: spin - yours_spin,
         mass: reduced(me.mass, you.mass),
         rest: reduced(moment(me.mass, mine.w), moment(you.mass, yours.w)),
@@ -136,9 +139,7 @@ fn touch(material: &Material, (me, you): (&Particle, &Particle), r: DVec3, world
     let share = if me.mass <= 0.0 { 0.0 } else if you.mass > 0.0 { 0.5 } else { 1.0 };
     let last = Wound::of(|word| memory.recall(word));
     if overlap <= 0.0 {
-        if Material::has_ended(&at, world.dt) {
-            sum.heat += share * material.left(&at, &last, world.dt);
-        }
+        sum.heat += share * material.left(&at, &last, world.dt);
         return;
     }
     let touch = material.touch(&at, &last, world.dt);

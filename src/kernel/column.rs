@@ -72,6 +72,8 @@ pub enum Advance {
     /// rate is a state.
     #[default]
     Linear,
+    /// The same as `Linear`, and on fixed particles too: what happens to them though they do not move, such as heat.
+    Everywhere,
     /// The same with positions, by a rate that follows from velocities and is computed in the middle of each drift, as that of
     /// a density is (see [`Column::carried`]).
     Carried,
@@ -196,6 +198,11 @@ impl Column {
     #[must_use]
     pub fn with_rate(self, rate: impl Into<Name>) -> Self {
         Self { rate: Some(rate.into()), ..self }
+    }
+    /// The same, advanced by integrators with this rate on fixed particles too, though they do not move: of what counts, such as heat.
+    #[must_use]
+    pub fn counting(self, rate: impl Into<Name>) -> Self {
+        Self { advance: Advance::Everywhere, ..self.with_rate(rate) }
     }
     /// The same, advanced with positions by this rate, which follows from velocities: dρ/dt = −ρ ∇·v. If the rate were taken at the end of
     /// a drift, it would include the second-order term of a straight path, which makes a rotating fluid seem to expand; in the middle it

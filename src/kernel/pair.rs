@@ -50,8 +50,8 @@ impl Pair {
             (Advance::Rotation { inertia }, _) => Way::Rotation { inertia: inertia.clone() },
             (_, Some((body, inertia))) => Way::Torque { orientation: body.name.clone(), inertia: inertia.clone() },
             (Advance::Carried, None) => Way::Carried,
-            (Advance::Linear, None) if rate.role == Role::State => Way::Drift,
-            (Advance::Linear, None) => Way::Kick,
+            (Advance::Linear | Advance::Everywhere, None) if rate.role == Role::State => Way::Drift,
+            (Advance::Linear | Advance::Everywhere, None) => Way::Kick,
         };
         Some(Self { column: column.clone(), rate: rate.clone(), way })
     }

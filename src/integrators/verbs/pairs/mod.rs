@@ -11,7 +11,8 @@ use glam::{DVec4, Vec4};
 
 use crate::error::Error;
 use crate::kernel::{
-    Column, Columns, Element, Host, Kernel, Name, Pair, Pass, Problem, Reference, Shader, Shape, Source, Table, Threads,
+    Advance, Column, Columns, Element, Host, Kernel, Name, Pair, Pass, Problem, Reference, Shader, Shape, Source,
+    Table, Threads,
 };
 
 /// The part of a buffer that a column occupies: the buffer that kernels bind, and the components of its elements.
@@ -27,6 +28,8 @@ pub struct Part {
     pub components: Range<usize>,
     /// The number of elements.
     pub shape: Shape,
+    /// Whether fixed particles are advanced too.
+    pub of_fixed: bool,
 }
 
 /// A column and the buffer of its rate, which has the same layout.
@@ -48,6 +51,7 @@ impl Part {
             vectors: columns.lies_in_vectors(column),
             components: first..first + column.kind.components(),
             shape: column.shape,
+            of_fixed: column.advance == Advance::Everywhere,
         }
     }
     fn elements(&self, problem: &Problem) -> usize {
@@ -64,13 +68,13 @@ impl Part {
             crate::shader!("integrators/pairs/scalar.wgsl")
         }
     }
-    /// Whether a particle's elements are advanced: not those of fixed or inactive particles.
+    /// Whether a particle's elements are advanced: not those of inactive particles, and of fixed ones only where that is declared.
     fn moving(&self, problem: &Problem, host: &Host) -> Result<impl Fn(usize) -> bool + use<>, Error> {
         let (is_active, mask, slots) = (host.is_active()?, problem.mask.clone(), self.slots());
-        let all = matches!(self.shape, Shape::System(_));
+        let (all, of_fixed) = (matches!(self.shape, Shape::System(_)), self.of_fixed);
         Ok(move |i: usize| {
             let id = i / slots;
-            all || is_active(id) && mask.get(id).is_none_or(|word| *word == 0)
+            all || is_active(id) && (of_fixed || mask.get(id).is_none_or(|word| *word == 0))
         })
     }
 }
@@ -134,7 +138,7 @@ pub fn kernel(
 ) -> Result<Kernel, Error> {
     let system = matches!(part.shape, Shape::System(_));
     let (holding, tables): (Source, Vec<Table>) =
-        if system { (crate::shader!("motion/free.wgsl"), Vec::new()) } else { problem.holding() };
+        if system || part.of_fixed { (crate::shader!("motion/free.wgsl"), Vec::new()) } else { problem.holding() };
     let living = if system { crate::shader!("life/all_active.wgsl") } else { problem.active() };
     let shader = Shader::join(&[
         crate::shader!("world.wgsl"),
