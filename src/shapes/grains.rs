@@ -182,7 +182,7 @@ mod tests {
                 assert!(grains::touching(grains.position(), radii, &Bounds::default(), |_| true).is_empty());
             }
             // Some reach the wall, or all are on the axis.
-            assert!(farthest > 0.9 || wide == 1.0, "{wide} {deep}: {farthest}");
+            assert!(farthest > 0.9 || wide < 1.001, "{wide} {deep}: {farthest}");
         }
     }
 
