@@ -305,7 +305,10 @@ fn worlds(kernel: &str, before: World, got: World, want: World) -> Verdict {
     let same = got.step == want.step && got.count == want.count;
     // A dt by itself: it must be right however late it is.
     let length = (got.dt - want.dt).abs() / (4.0 * f64::from(f32::EPSILON) * want.dt).max(f64::MIN_POSITIVE);
-    let worst = if same { ((got.time - want.time).abs() / allowed).max(length) } else { f64::INFINITY };
+    let side = |world: &World| world.bounds.high - world.bounds.low;
+    let places = 4.0 * f64::from(f32::EPSILON) * want.bounds.high.abs().max_element().max(side(&want).max_element());
+    let corner = (got.bounds.high - want.bounds.high).abs().max_element() / places.max(f64::MIN_POSITIVE);
+    let worst = if same { ((got.time - want.time).abs() / allowed).max(length).max(corner) } else { f64::INFINITY };
     Verdict { kernel: kernel.to_owned(), field: "world".to_owned(), worst, changed: before != want, ..Verdict::none() }
 }
 

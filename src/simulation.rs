@@ -3,6 +3,7 @@
 mod adaptive_step;
 mod alarm;
 mod columns;
+mod elastic;
 mod fields;
 mod grow;
 mod inactive;
@@ -117,6 +118,8 @@ impl<B: Backend> Simulation<B> {
     }
     fn going(mut backend: B, given: &Setup, how: Start) -> Result<Self, Error> {
         threads()?;
+        let stretched = given.stretched()?;
+        let given = stretched.as_ref().unwrap_or(given);
         let padded = given.padded();
         let setup = padded.as_ref().unwrap_or(given);
         let count = setup.check()?;
@@ -136,7 +139,7 @@ impl<B: Backend> Simulation<B> {
         let measure = (backend.compile(&plans.measure.0)?, backend.compile(&plans.measure.1)?);
         let state = &setup.state;
         let store = Store::new(setup, &plans, count)?;
-        let print = restart::print(&plans.step);
+        let print = restart::print(&plans.step, problem.elastic.is_some());
         let whole = how == Start::Grown || restart::is_whole(print, &given.state);
         store.write(&mut backend, setup, whole)?;
         let anchored = plans.all().any(|plan| plan.fields(count).contains_key(HOME.name));

@@ -14,8 +14,14 @@ override LAYERS: u32 = 1u;
 // Beyond this number of cells all are one: there, f32 does not resolve positions that are a cell apart.
 const FARTHEST: f32 = 536870912.0; // 2²⁹
 
+// Whether the box changes: its cells change with it.
+override ELASTIC: bool = false;
+
 // The distance from the corner of the cell list in cells, along each axis.
-fn away(x: vec3f) -> vec3f { return (x - grid.low) * grid.per_cell; }
+fn away(x: vec3f) -> vec3f {
+    if ELASTIC { return (x - world.low) * (vec3f(grid.cells) * world.frequency); }
+    return (x - grid.low) * grid.per_cell;
+}
 
 fn fold(c: i32, cells: u32) -> u32 {
     // A multiple of the cells that makes every c positive.

@@ -5,6 +5,8 @@
 @group(2) @binding(12) var<storage, read_write> list_origin: array<vec4f>;
 
 override ROOM: u32 = 4u;
+// Whether the box changes.
+override ELASTIC: bool = false;
 const WORKGROUP: u32 = 64u;
 const NONE: u32 = 0xffffffffu;
 
@@ -20,7 +22,8 @@ fn length(found: vec4u) -> u32 { return select(0u, found.x, found.x <= ROOM); }
 // The head of a row, and where the particle of that id is, not slot, as the list is built.
 fn head(k: u32, found: vec4u) {
     list[k] = vec4u(length(found), found.yzw);
-    list_origin[k] = vec4f(position[k].xyz, f32(is_active(k)));
+    let side = select(1.0, world.period.x, ELASTIC);
+    list_origin[k] = vec4f(position[k].xyz, side * f32(is_active(k)));
     if found.x > atomicLoad(&list_state[0].longest) { atomicMax(&list_state[0].longest, found.x); }
     if length(found) < found.x { atomicMax(&list_state[0].full, ~found.y); }
 }

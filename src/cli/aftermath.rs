@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 use std::path::Path;
 
 use motes::formats::{Format, Options, Precision};
-use motes::{Error, Setup, State};
+use motes::{Bounds, Error, Setup, State};
 
 use super::failure::Failure;
 use motes::run::written;
@@ -29,7 +29,8 @@ pub fn explain(
         let _ = write!(words, "\n{advice}");
     }
     if let Some(last) = last {
-        match keep(last, folder, formats, precision) {
+        let bounds = Some(last.boxed(&setup.bounds)).filter(|bounds| *bounds != Bounds::default());
+        match keep(last, folder, formats, (precision, bounds)) {
             Ok(files) => {
                 let _ = write!(words, "\nthe last good state, after step {}, is in {files}", last.step);
             }
@@ -74,13 +75,18 @@ fn neighbors(setup: &Setup, particle: u32) -> String {
     format!("it is linked to {}{more}", named.join(", "))
 }
 
-fn keep(last: &State, folder: &Path, formats: &[&Format], precision: Precision) -> Result<String, Error> {
+fn keep(
+    last: &State,
+    folder: &Path,
+    formats: &[&Format],
+    (precision, bounds): (Precision, Option<Bounds>),
+) -> Result<String, Error> {
     let arrays = motes::formats::format("npz");
     let chosen: Vec<&Format> = if formats.is_empty() { arrays.into_iter().collect() } else { formats.to_vec() };
     let mut files = Vec::new();
     for format in chosen {
         let path = folder.join(format!("last_good.{}", format.name));
-        written(&path, format, last, &Options { precision, ..Options::default() })?;
+        written(&path, format, last, &Options { precision, bounds, ..Options::default() })?;
         files.push(path.display().to_string());
     }
     Ok(files.join(" and "))

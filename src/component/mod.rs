@@ -1,10 +1,12 @@
 //! A component of a simulation: its declarations and its kernels in a step. Everything else is derived from them.
 
+pub(crate) mod barostat;
 pub(crate) mod bath;
 mod each;
 pub(crate) mod keys;
 pub(crate) mod kind;
 mod misnamed;
+pub(crate) mod pressure;
 mod register;
 mod registered;
 pub(crate) mod thermostat;
@@ -38,6 +40,10 @@ pub trait Component: Copied + Send + Sync {
     }
     /// Its laws, in the order in which they are evaluated; a later one may read what an earlier one wrote.
     fn laws(&self) -> Vec<Law> {
+        Vec::new()
+    }
+    /// What pairs beyond its cut-off radius lack, by pairs of species; empty where nothing is known to lack.
+    fn tails(&self) -> Vec<Tail> {
         Vec::new()
     }
     /// The name used by [`Simulation::set`](crate::Simulation::set); a component with an empty name cannot be set.
@@ -168,6 +174,8 @@ pub enum Stage {
     StartOfStep,
     /// Once at the end of each step.
     EndOfStep,
+    /// After that, where a component needs the pressure: it was measured, if it was due.
+    Pressure,
 }
 
 /// Properties of a component that depend only on its settings.
@@ -199,6 +207,8 @@ pub struct Properties {
     pub dissipates_at_walls: Vec<&'static str>,
     /// Whether it is a thermostat of all particles: a simulation has one at most.
     pub thermostat: bool,
+    /// Whether it is a barostat, which changes the box, and the number of steps after each of which it needs the pressure.
+    pub barostat: Option<u32>,
     /// Whether it needs the forces of the positions at which a step begins: `ends_with_forces` of the integrator.
     pub needs_forces: bool,
     /// Whether it changes the angular momentum.
@@ -215,6 +225,17 @@ pub struct Properties {
     pub largest: Vec<Largest>,
     /// A remark for the user before a run.
     pub caution: Option<&'static str>,
+}
+
+/// Integrals of a pair potential U from its cut-off radius R on.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Tail {
+    /// The two species, in one order only.
+    pub species: [u32; 2],
+    /// ∫ U r² dr \[energy length³\].
+    pub energy: f64,
+    /// ∫ U′ r³ dr \[energy length³\].
+    pub slope: f64,
 }
 
 /// The largest value that a column may have.

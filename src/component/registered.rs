@@ -1,7 +1,7 @@
 //! A registered component, which keeps its settings, so that one of them can be changed.
 
 use super::misnamed::misnamed;
-use super::{Change, Component, Properties, Resolved, Stage};
+use super::{Change, Component, Properties, Resolved, Stage, Tail};
 use crate::error::Error;
 use crate::kernel::{Bounds, Column, Plan, Problem};
 use crate::settings::{Key, Settings, unknown};
@@ -58,6 +58,9 @@ impl Component for Registered {
     }
     fn laws(&self) -> Vec<Law> {
         self.made.laws()
+    }
+    fn tails(&self) -> Vec<Tail> {
+        self.made.tails()
     }
     fn properties(&self) -> Properties {
         self.made.properties()

@@ -203,7 +203,7 @@ impl Component for Fluid {
             Stage::Carry { .. } => self.carry(plan, problem),
             Stage::StepLimit => self.limit_steps(plan, problem),
             Stage::EndOfStep if self.solves() => self.dfsph(self.medium(&problem.bounds)?, problem)?.conclude(plan),
-            Stage::AfterKick | Stage::AfterDrift { .. } | Stage::AfterAdvance { .. } | Stage::StartOfStep | Stage::EndOfStep => Ok(()),
+            Stage::AfterKick | Stage::AfterDrift { .. } | Stage::AfterAdvance { .. } | Stage::StartOfStep | Stage::Pressure | Stage::EndOfStep => Ok(()),
         }
     }
 }

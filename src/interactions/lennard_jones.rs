@@ -2,8 +2,9 @@
 
 use std::borrow::Cow;
 
-use super::pair_potential::{Energy, Mixing, ONSET, PAIRS, RANGE, TRUNCATION, factor, law, length, rows};
+use super::pair_potential::{Energy, Mixing, ONSET, PAIRS, RANGE, TRUNCATION, factor, law, length, rows, tails};
 use super::{Component, Law, SEE_NEAR, SKIN, over};
+use crate::component::Tail;
 use crate::settings::{Key, Kind, Settings, Value};
 
 /// The keys in a scene.
@@ -68,6 +69,9 @@ pub(super) fn energy(coefficients: &[f64], r: f64) -> Energy {
 }
 
 impl Component for LennardJones {
+    fn tails(&self) -> Vec<Tail> {
+        tails(&self.0, &rows(&self.0, &["epsilon", "sigma"], mixing(&self.0)), energy)
+    }
     fn laws(&self) -> Vec<Law> {
         let names = ["epsilon", "sigma"];
         let file = ("lennard_jones", crate::shader!("interactions/lennard_jones.wgsl"));

@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use glam::{DVec3, DVec4};
 
+use crate::component::Tail;
 use crate::kernel::{Scalar, Source, World};
 use crate::settings::{Key, Kind, Pair, Settings, Value};
 use crate::visit::{Law, MOST_SPECIES, Over, PairRow, PairTable, Particle};
@@ -83,6 +84,33 @@ pub(super) fn rows(settings: &Settings, names: &[&str], mixing: Option<Mixing>) 
 
 fn find(rows: &[Row], [a, b]: [u32; 2]) -> Option<&Row> {
     rows.iter().find(|row| row.species == [a, b] || row.species == [b, a])
+}
+
+/// The integrals of an energy beyond the range, where nothing else ends it; by Simpson's rule over t = R / r.
+pub(super) fn tails(settings: &Settings, rows: &[Row], energy: fn(&[f64], f64) -> Energy) -> Vec<Tail> {
+    const STEPS: u32 = 1000;
+    if settings.text("truncation") != "cut" {
+        return Vec::new();
+    }
+    let range = settings.number("range");
+    let of = |row: &Row| {
+        let integral = |of: &dyn Fn(f64) -> f64| {
+            let h = 1.0 / f64::from(STEPS);
+            // At t = 0 there is nothing left.
+            let term = |k: u32| {
+                let t = h * f64::from(k);
+                let weight = if k == STEPS { 1.0 } else { f64::from(2 + 2 * (k % 2)) };
+                weight * of(range / t) * range / (t * t)
+            };
+            (1..=STEPS).map(term).sum::<f64>() * h / 3.0
+        };
+        Tail {
+            species: row.species,
+            energy: integral(&|r| energy(&row.values, r).value * r * r),
+            slope: integral(&|r| energy(&row.values, r).slope * r.powi(3)),
+        }
+    };
+    rows.iter().map(of).collect()
 }
 
 /// The end of an energy at the cut-off radius.

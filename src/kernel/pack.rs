@@ -110,6 +110,13 @@ impl Packed {
     pub fn float(&self, bytes: &[u8], name: &str) -> f64 {
         f64::from(f32::from_le_bytes(self.word(bytes, name)))
     }
+    /// Reads a member of `vec3f`; zero when there is none.
+    #[must_use]
+    pub fn vector(&self, bytes: &[u8], name: &str) -> glam::Vec3 {
+        let offset = self.members.iter().find(|m| m.name == name).map_or(0, |m| m.offset);
+        let word = |k: usize| bytes.get(offset + 4 * k..offset + 4 * k + 4).and_then(|word| word.try_into().ok());
+        glam::Vec3::from_array([0, 1, 2].map(|k| f32::from_le_bytes(word(k).unwrap_or_default())))
+    }
     /// Reads a member of `u32`; zero when there is none.
     #[must_use]
     pub fn uint(&self, bytes: &[u8], name: &str) -> u32 {

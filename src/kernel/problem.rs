@@ -23,6 +23,8 @@ pub struct Problem {
     pub machine: Machine,
     /// The box and its boundaries.
     pub bounds: Bounds,
+    /// Where the box changes: the part of its sides, as they are when the plan is written, for which cells are wide enough.
+    pub elastic: Option<f64>,
     /// The lowest and the highest corner of the initial positions \[length\].
     pub extent: (DVec3, DVec3),
     /// The number of particles of each species; empty where there is only one.
@@ -89,6 +91,7 @@ impl Problem {
             has_ids: false,
             machine,
             bounds: Bounds::default(),
+            elastic: None,
             extent: (DVec3::ZERO, DVec3::ONE),
             species: Vec::new(),
             network: Arc::new(Network { count, ..Network::default() }),
@@ -211,6 +214,11 @@ impl Problem {
     pub fn is_held(&self, id: usize) -> bool {
         self.mask.get(id).is_some_and(|word| *word > 0)
     }
+    /// The same in a box that changes, with cells that are wide enough in one whose sides are this part as long; or not.
+    #[must_use]
+    pub fn stretched(self, elastic: Option<f64>) -> Self {
+        Self { elastic, ..self }
+    }
     /// The same with links that may break.
     #[must_use]
     pub fn breaking(self, breaks: bool) -> Self {
@@ -230,7 +238,8 @@ impl Problem {
     /// The values of a shader's `override`s that depend on the problem.
     #[must_use]
     pub fn constants(&self, shader: &Shader) -> Vec<(&'static str, f64)> {
-        let periodic = shader.reflection().overrides.contains_key("PERIODIC") && self.bounds.has(Side::Periodic);
-        if periodic { vec![("PERIODIC", 1.0)] } else { Vec::new() }
+        let known = [("PERIODIC", self.bounds.has(Side::Periodic)), ("ELASTIC", self.elastic.is_some())];
+        let known = known.into_iter().filter(|(name, on)| *on && shader.reflection().overrides.contains_key(*name));
+        known.map(|(name, _)| (name, 1.0)).collect()
     }
 }

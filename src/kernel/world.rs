@@ -48,7 +48,15 @@ impl World {
     /// Updates the members that change on the device from data read back.
     #[must_use]
     pub fn updated(self, packed: &Packed, bytes: &[u8]) -> Self {
+        // A box that has not changed has the digits with which it was given.
+        let mut bounds = self.bounds;
+        let high = packed.vector(bytes, "high");
+        let given = bounds.high.as_vec3();
+        for axis in (0..3).filter(|axis| high[*axis].to_bits() != given[*axis].to_bits()) {
+            bounds.high[axis] = f64::from(high[axis]);
+        }
         Self {
+            bounds,
             time: packed.float(bytes, "time"),
             dt: packed.float(bytes, "dt"),
             step: packed.uint(bytes, "step"),

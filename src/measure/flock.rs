@@ -148,7 +148,7 @@ impl Flocks {
 
 impl Series for Flocks {
     fn take(&mut self, moment: &Moment<'_>) -> Result<Vec<Row>, Error> {
-        let f = Flock::of(moment.state, self.bounds, Some(self.range), self.species)?;
+        let f = Flock::of(moment.state, moment.bounds(&self.bounds), Some(self.range), self.species)?;
         self.add(f);
         let counts = [f.most_neighbors, f.clusters].map(f64::from);
         let row = [f.order, f.speed, f.neighbors, counts[0], counts[1], f.largest];

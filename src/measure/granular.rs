@@ -48,7 +48,7 @@ impl Series for Granular {
         let state = moment.state;
         let radii = state.scalar("radius").unwrap_or_default();
         let there = |i: usize| state.is_active(i);
-        let pairs = touching(state.position(), radii, &self.bounds, there);
+        let pairs = touching(state.position(), radii, &moment.bounds(&self.bounds), there);
         let mut contacts = vec![0_u32; state.len()];
         let mut overlap = 0.0_f64;
         for pair in &pairs {

@@ -89,6 +89,7 @@ register! {
     population
     thermo
     pressure
+    tail
     rdf
     diffusion
     probe

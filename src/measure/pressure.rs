@@ -6,7 +6,7 @@ use super::series::number;
 use super::thermo::moving;
 use super::{Measure, Moment, Needs, Row, Series, Times};
 use crate::error::Error;
-use crate::kernel::Side;
+use crate::kernel::{Bounds, Side};
 
 /// `pressure.csv`.
 pub const MEASURE: Measure = Measure {
@@ -35,9 +35,7 @@ pub const MEASURE: Measure = Measure {
             ));
         }
         setup.has_virial()?;
-        let size = bounds.high - bounds.low;
-        let volume = (0..axes).map(|axis| size[axis]).product();
-        Ok(Box::new(Pressures { held: setup.state.fixed(), volume, axes, rows: Vec::new() }))
+        Ok(Box::new(Pressures { held: setup.state.fixed(), bounds, axes, rows: Vec::new() }))
     },
 };
 
@@ -45,7 +43,7 @@ pub const MEASURE: Measure = Measure {
 #[derive(Debug)]
 pub struct Pressures {
     held: Vec<bool>,
-    volume: f64,
+    bounds: Bounds,
     axes: usize,
     rows: Vec<f64>,
 }
@@ -67,6 +65,8 @@ impl Series for Pressures {
             return Err(Error::Scene("the measure `pressure` needs the virial of the state".to_owned()));
         };
         let state = moment.state;
+        let bounds = moment.bounds(&self.bounds);
+        let volume: f64 = (0..self.axes).map(|axis| (bounds.high - bounds.low)[axis]).product();
         let (all, mean) = moving(state, &self.held);
         let (mut normal, mut shear) = (DVec3::ZERO, DVec3::ZERO);
         for i in all {
@@ -74,13 +74,13 @@ impl Series for Pressures {
             normal += m * v * v;
             shear += m * DVec3::new(v.y * v.z, v.x * v.z, v.x * v.y);
         }
-        let trace = |x: &[f64]| x[..self.axes].iter().sum::<f64>() / self.axes as f64 / self.volume;
+        let trace = |x: &[f64]| x[..self.axes].iter().sum::<f64>() / self.axes as f64 / volume;
         let kinetic = [normal.to_array(), shear.to_array()].concat();
         let ideal = trace(&kinetic);
         let whole: Vec<f64> = kinetic.iter().zip(virial).map(|(k, w)| k + w).collect();
         let pressure = trace(&whole);
         self.rows.push(pressure);
-        let parts = whole.iter().map(|part| part / self.volume);
+        let parts = whole.iter().map(|part| part / volume);
         Ok(vec![[pressure, ideal].into_iter().chain(parts).map(Into::into).collect()])
     }
     fn recall(&mut self, _: u64, cells: &[&str]) {

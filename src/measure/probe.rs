@@ -77,17 +77,17 @@ struct Sum {
 
 impl Series for Probe {
     fn take(&mut self, moment: &Moment<'_>) -> Result<Vec<Row>, Error> {
-        let state = moment.state;
+        let (state, bounds) = (moment.state, moment.bounds(&self.bounds));
         let active: Vec<usize> = (0..state.len()).filter(|i| state.is_active(*i)).collect();
         let places: Vec<DVec3> = active.iter().map(|i| state.position()[*i]).chain(self.points.iter().copied()).collect();
-        let cells = Cells::new(&places, self.bounds, self.range)?;
+        let cells = Cells::new(&places, bounds, self.range)?;
         let volume = self.range.powi(if self.bounds.dimensions == 2 { 2 } else { 3 });
         let constant = Smoothing::Wendland.constant(self.bounds.dimensions) / volume;
         let at = |point: usize| {
             let (here, mut sum) = (active.len() + point, Sum::default());
             cells.around(here, |j| {
                 let Some(id) = active.get(j) else { return };
-                let r = self.bounds.shortest(places[j] - places[here]).length();
+                let r = bounds.shortest(places[j] - places[here]).length();
                 let weight = constant * Smoothing::Wendland.profile(r / self.range);
                 sum.particles += 1;
                 sum.density += state.mass()[*id] * weight;

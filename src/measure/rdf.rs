@@ -75,16 +75,16 @@ struct Distances {
 
 impl Distances {
     /// The ordered pairs in each interval, all that there are at any distance, and the particles at their centres.
-    fn count(&self, state: &State) -> Result<(Vec<u64>, u64, u64), Error> {
+    fn count(&self, state: &State, bounds: Bounds) -> Result<(Vec<u64>, u64, u64), Error> {
         let active: Vec<usize> = (0..state.len()).filter(|i| state.is_active(*i)).collect();
         let places: Vec<DVec3> = active.iter().map(|i| state.position()[*i]).collect();
         let kind = |place: usize| state.species().get(active[place]).copied().unwrap_or(0);
         let is = |place: usize, of: Option<u32>| of.is_none_or(|species| kind(place) == species);
-        let cells = Cells::new(&places, self.bounds, self.range)?;
+        let cells = Cells::new(&places, bounds, self.range)?;
         let [centre, around] = self.pair;
         let add = |mut bins: Vec<u64>, i: usize| {
             cells.around(i, |j| {
-                let r = self.bounds.shortest(places[j] - places[i]).length();
+                let r = bounds.shortest(places[j] - places[i]).length();
                 #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "below the number of bins")]
                 let bin = (r / self.range * self.bins as f64) as usize;
                 if is(j, around) && bin < self.bins {
@@ -107,8 +107,16 @@ impl Distances {
 
 impl Series for Distances {
     fn take(&mut self, moment: &Moment<'_>) -> Result<Vec<Row>, Error> {
-        let (bins, pairs, centres) = self.count(moment.state)?;
-        let (flat, period) = (self.bounds.dimensions == 2, self.bounds.period());
+        let bounds = moment.bounds(&self.bounds);
+        let (flat, period) = (bounds.dimensions == 2, bounds.period());
+        let shortest = period.to_array().into_iter().filter(|side| *side > 0.0).fold(f64::INFINITY, f64::min);
+        if 2.0 * self.range > shortest {
+            return Err(Error::Scene(format!(
+                "the measure `rdf` reaches as far as {}, and the box has shrunk to a side of {shortest}, less than twice that: choose a shorter range",
+                self.range
+            )));
+        }
+        let (bins, pairs, centres) = self.count(moment.state, bounds)?;
         let volume = if flat { period.x * period.y } else { period.x * period.y * period.z };
         let ball = |r: f64| if flat { PI * r * r } else { 4.0 / 3.0 * PI * r * r * r };
         let others = pairs as f64 / centres.max(1) as f64;

@@ -5,6 +5,7 @@ use std::fmt::{self, Debug, Display};
 use std::sync::Arc;
 
 use crate::error::Error;
+use crate::kernel::Bounds;
 use crate::links::Links;
 use crate::simulation::Clock;
 use crate::state::State;
@@ -22,6 +23,14 @@ pub struct Moment<'a> {
     pub links: Option<&'a Links>,
     /// The virial −½ Σ r ⊗ F of forces of pairs, where a measure needs it: xx, yy, zz, yz, xz, xy \[energy\].
     pub virial: Option<[f64; 6]>,
+}
+
+impl Moment<'_> {
+    /// The box of the state, which is this one where no barostat has changed it.
+    #[must_use]
+    pub fn bounds(&self, bounds: &Bounds) -> Bounds {
+        self.state.boxed(bounds)
+    }
 }
 
 /// What a measure reads beside the state.

@@ -108,7 +108,7 @@ impl Cells {
     fn rows(&self, wrapped: Vec3, mut call: impl FnMut(&[u32])) {
         let [nx, ny, nz] = self.grid.cells.map(i64::from);
         let c = place(&self.grid, &self.bounds, wrapped);
-        let [rx, ry, rz] = reach(&self.grid, wrapped);
+        let [rx, ry, rz] = reach(&self.grid, &self.bounds, wrapped);
         // If an axis has fewer cells than a search covers, each is visited once.
         let span = |n: i64, reach: i64| if 2 * reach + 1 > n { 0..n } else { -reach..reach + 1 };
         for z in span(nz, rz) {
@@ -125,8 +125,9 @@ impl Cells {
 
 /// The number of cells to search on each side: more, where rounding errors of positions exceed a cell's slack; see
 /// `shaders/visit/near_rows.wgsl`.
-fn reach(grid: &Grid, wrapped: Vec3) -> [i64; 3] {
-    let away = ((wrapped - grid.low.as_vec3()) * grid.per_cell.as_vec3()).abs().to_array();
+fn reach(grid: &Grid, bounds: &Bounds, wrapped: Vec3) -> [i64; 3] {
+    let (low, per_cell) = grid.placed(bounds);
+    let away = ((wrapped - low) * per_cell).abs().to_array();
     #[expect(clippy::cast_precision_loss, reason = "a small whole number")]
     let reach = |axis: usize| {
         let fine = i64::from(grid.fine[axis]);
@@ -142,7 +143,8 @@ fn reach(grid: &Grid, wrapped: Vec3) -> [i64; 3] {
 /// The cell of a wrapped position along each axis, before folding.
 fn place(grid: &Grid, bounds: &Bounds, wrapped: Vec3) -> [i64; 3] {
     const FARTHEST: f32 = 536_870_912.0;
-    let c: Vec3 = ((wrapped - grid.low.as_vec3()) * grid.per_cell.as_vec3()).floor();
+    let (low, per_cell) = grid.placed(bounds);
+    let c: Vec3 = ((wrapped - low) * per_cell).floor();
     [0, 1, 2].map(|axis| {
         #[expect(clippy::cast_precision_loss, reason = "at most 8192 along a period")]
         let last = if bounds.sides[axis] == Side::Periodic { grid.cells[axis] as f32 - 1.0 } else { FARTHEST };

@@ -1,10 +1,10 @@
 //! The grid of a cell list: the width of a cell, and the number of cells before folding.
 
-use glam::DVec3;
+use glam::{DVec3, Vec3};
 
 use super::field;
 use crate::error::Error;
-use crate::kernel::{Binding, Name, Problem, Scalar, Side};
+use crate::kernel::{Binding, Bounds, Name, Problem, Scalar, Side};
 
 /// A cell is wider than the range by this part, so that rounding moves no neighbour two cells away; see `shaders/visit/near_rows.wgsl`. Up
 /// to [`FINEST`] cells from the corner the error of a position is at most 2 · 8192 · 2⁻²⁴ of a cell (two roundings), and that of a
@@ -50,6 +50,8 @@ pub struct Grid {
     pub occupancy: f64,
     /// The way in which the number of cells was reduced to fit the limits.
     pub fitted: &'static str,
+    /// Whether its cells change with the box.
+    pub elastic: bool,
 }
 
 impl Grid {
@@ -110,7 +112,7 @@ impl Grid {
         let periodic = problem.bounds.axes(Side::Periodic);
         let size = size(problem);
         let parts = DVec3::from_array(fine.map(f64::from));
-        let whole_cells = size / width * parts;
+        let whole_cells = size / width * parts * problem.elastic.unwrap_or(1.0);
         // A period is divided into whole cells; elsewhere the last cell may extend beyond the box.
         let wish = DVec3::select(periodic.cmpgt(DVec3::ZERO), whole_cells.floor(), whole_cells.ceil()).max(DVec3::ONE);
         let flat = problem.bounds.dimensions == 2;
@@ -156,7 +158,27 @@ impl Grid {
             apart: false,
             occupancy: f64::from(problem.count_of(of)) / wish.element_product(),
             fitted,
+            elastic: problem.elastic.is_some(),
         }
+    }
+    /// The shortest sides of a periodic box in which a cell is wide enough for its range.
+    #[must_use]
+    pub fn shortest_sides(&self) -> DVec3 {
+        let side = |axis: usize| {
+            let [cells, fine] = [self.cells, self.fine].map(|counts| f64::from(counts[axis]));
+            // Where all cells are visited, none can be too narrow.
+            if cells <= 2.0 * fine { 0.0 } else { self.range * (1.0 + SLACK) * cells / fine }
+        };
+        DVec3::new(side(0), side(1), side(2))
+    }
+    /// Its corner and one over the width of a cell in a box, as the device has them.
+    #[must_use]
+    pub(super) fn placed(&self, bounds: &Bounds) -> (Vec3, Vec3) {
+        if !self.elastic {
+            return (self.low.as_vec3(), self.per_cell.as_vec3());
+        }
+        let cells = DVec3::from_array(self.cells.map(f64::from)).as_vec3();
+        (bounds.low.as_vec3(), cells * bounds.frequency().as_vec3())
     }
 
     /// Whether finer cells would still contain several particles each, for a uniform distribution.

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use glam::{DVec3, Vec4};
+use glam::{DVec3, DVec4, Vec4};
 use rayon::prelude::*;
 
 use super::{Cells, Grid, checked};
@@ -127,7 +127,7 @@ impl List {
         let [_, builds, longest, full] = &mut state[..] else { return Ok(false) };
         let moved = |i: usize| {
             let from = origin[i];
-            is_active(i) != (from.w > 0.0) || is_active(i) && self.has_moved(places[i], from.truncate(), &bounds)
+            is_active(i) != (from.w > 0.0) || is_active(i) && self.has_moved(places[i], from, &bounds)
         };
         if *builds > 0 && !(0..count).any(moved) {
             return Ok(false);
@@ -171,14 +171,24 @@ impl List {
             if row.len() > kept {
                 *full = (!id).max(*full);
             }
-            origin[k] = places[k].extend(f64::from(u8::from(is_active(k))));
+            let side = if self.grid.elastic { bounds.period().x } else { 1.0 };
+            origin[k] = places[k].extend(side * f64::from(u8::from(is_active(k))));
         }
         Ok(true)
     }
     /// Whether a displacement exceeds the limit of the list, by the device's own arithmetic.
     #[expect(clippy::cast_possible_truncation, reason = "as the device holds it")]
-    fn has_moved(&self, x: DVec3, from: DVec3, bounds: &Bounds) -> bool {
+    fn has_moved(&self, x: DVec3, origin: DVec4, bounds: &Bounds) -> bool {
         let mut limit = self.limit() as f32;
+        let mut from = origin.truncate();
+        if self.grid.elastic {
+            let (low, part) = (bounds.low.as_vec3(), bounds.period().x as f32 / origin.w as f32);
+            from = (low + part * (from.as_vec3() - low)).as_dvec3();
+            limit += 0.5 * (part - 1.0) * self.shape.reach() as f32;
+            if limit <= 0.0 {
+                return true;
+            }
+        }
         if bounds.has(Side::Periodic) {
             limit -= ROUNDING as f32 * x.as_vec3().abs().max(from.as_vec3().abs()).max_element();
         }

@@ -65,7 +65,9 @@ impl Writer for States {
             let list = (format.name == "vtp").then(|| folder.file(Collection::NAME)).transpose()?;
             // The folder stays locked until the file is written.
             let (folder, listed) = (folder.clone(), self.listed.clone());
-            let (file, format, state, options) = (path.clone(), *format, state.clone(), self.options.clone());
+            let bounds = self.options.bounds.map(|bounds| state.boxed(&bounds));
+            let options = Options { bounds, ..self.options.clone() };
+            let (file, format, state) = (path.clone(), *format, state.clone());
             self.stream.write(&path, stream::size(&state), move || {
                 let _held = folder;
                 for (file, part) in &parts {

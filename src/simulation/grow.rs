@@ -4,15 +4,17 @@
 use super::{Simulation, Start};
 use crate::error::Error;
 use crate::kernel::{Array, Backend, STOP};
-use crate::state::{KEPT_ROOM, KEPT_ROWS};
+use crate::state::{KEPT_PART, KEPT_ROOM, KEPT_ROWS};
 
 /// The capacity to provide.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Room {
     /// This many rows in all; ids are then a column.
     Rows(u32),
     /// This many neighbours of each particle on the list.
     Neighbors(u32),
+    /// Cells of the present box that are wide enough in one whose sides are this part as long.
+    Cells(f64),
 }
 
 impl<B: Backend> Simulation<B> {
@@ -27,17 +29,20 @@ impl<B: Backend> Simulation<B> {
         self.complete(&mut state).await?;
         let rows = match room {
             Room::Rows(rows) => Some(rows),
-            Room::Neighbors(_) => Some(self.capacity()).filter(|_| self.rows.are_open()),
+            Room::Neighbors(_) | Room::Cells(_) => Some(self.capacity()).filter(|_| self.rows.are_open()),
         };
         if rows.is_some() {
             state.kept.put(KEPT_ROWS, vec![f64::from(self.first_rows)]);
             (state.capacity, state.next) = (rows, self.rows.next());
         }
         let neighbors = match room {
-            Room::Rows(_) => self.list.map(|list| list.capacity),
+            Room::Rows(_) | Room::Cells(_) => self.list.map(|list| list.capacity),
             Room::Neighbors(neighbors) => Some(neighbors),
         };
         state.kept.put(KEPT_ROOM, neighbors.map(f64::from).into_iter().collect());
+        if let Room::Cells(part) = room {
+            state.kept.put(KEPT_PART, vec![part]);
+        }
         let setup = self.setup.with_state(state);
         let mut grown = Self::going(self.backend.alike(rows.unwrap_or(self.capacity()))?, &setup, Start::Grown)?;
         self.carry(&mut grown).await?;

@@ -99,11 +99,11 @@ pub(super) struct Repeat {
 }
 
 /// The simulation at the time of the copy.
-struct Origin {
-    steps: u64,
-    begun: bool,
+pub(super) struct Origin {
+    pub steps: u64,
+    pub begun: bool,
     /// The number of steps since, if any were run.
-    since: Option<u64>,
+    pub since: Option<u64>,
 }
 
 /// The status of the list, as read back.
@@ -127,6 +127,14 @@ impl Repeat {
             fields.remove(LIST);
         }
         Self { fields: fields.into_iter().collect(), from: None, sufficed: true }
+    }
+    /// The copy, which is then given up.
+    pub fn take(&mut self) -> Option<Origin> {
+        self.from.take()
+    }
+    /// Gives up the copy.
+    pub fn forget(&mut self) {
+        self.from = None;
     }
 }
 
@@ -161,7 +169,14 @@ impl<B: Backend> Simulation<B> {
     /// [`Error::ListFull`] where the device has no room for more, or the steps cannot be repeated; or errors of reading and compiling.
     pub(super) async fn settle(&mut self) -> Result<bool, Error> {
         let mut changed = false;
+        if self.problem.elastic.is_some() && self.list.is_none() {
+            changed = Box::pin(self.fit_cells()).await?;
+        }
         while let Some(shape) = self.list.filter(|_| !self.repeat.sufficed) {
+            if self.problem.elastic.is_some() && Box::pin(self.fit_cells()).await? {
+                changed = true;
+                continue;
+            }
             let seen = self.seen().await?;
             let more = self.more(shape, seen.longest);
             let ample = f64::from(seen.longest) <= AMPLE * f64::from(shape.capacity);
@@ -205,7 +220,11 @@ impl<B: Backend> Simulation<B> {
             let lacks = matches!(why, Error::Limit(_) | Error::OutOfMemory(_));
             return Err(if lacks { self.full(shape, row, longest) } else { why });
         }
-        let mut left = from.since;
+        self.repeat_steps(from.since)
+    }
+    /// Makes this many steps again.
+    pub(super) fn repeat_steps(&mut self, steps: Option<u64>) -> Result<(), Error> {
+        let mut left = steps;
         while let Some(steps) = left {
             let some = u32::try_from(steps).unwrap_or(u32::MAX);
             self.step(some)?;

@@ -13,7 +13,7 @@ use crate::boundary;
 use crate::error::Error;
 use crate::integrators::{SOLVE_REPORT, kept_rates};
 use crate::kernel::{
-    ALARM, Array, Backend, Column, Columns, HOME, ID, LARGEST_CRITERION, LIFE, LOW_WORDS, Plan, QUIET, Role,
+    ALARM, Array, Backend, Column, Columns, HOME, ID, Kernel, LARGEST_CRITERION, LIFE, LOW_WORDS, Plan, QUIET, Role,
     STEP_CLOCK, STEP_CLOCK_WORDS, STEP_CRITERIA, TICKS, World, extent, split,
 };
 use crate::life::Life;
@@ -135,10 +135,11 @@ impl Print {
 }
 
 /// A hash that two steps share only if they perform the same operations: names are ignored, and so is the capacity of a neighbour list,
-/// which depends on when it was checked.
-pub(super) fn print(step: &Plan) -> u64 {
+/// which depends on when it was checked. In an `elastic` box so do its cells: the list is the same by any.
+pub(super) fn print(step: &Plan, elastic: bool) -> u64 {
     let mut print = Print::new();
-    for kernel in step.steps() {
+    let is_list = |kernel: &&Kernel| kernel.tables.iter().any(|(name, _)| name == visit::LIST_ALL);
+    for kernel in step.steps().filter(|kernel| !(elastic && is_list(kernel))) {
         for pass in &kernel.passes {
             print.add(pass.shader.text().as_bytes());
             pass.constants.iter().filter(|(name, _)| *name != visit::LIST_ROOM).for_each(|(name, value)| {

@@ -109,8 +109,9 @@ impl<B: Backend> Simulation<B> {
         self.start = self.backend.compile(&plans.start)?;
         self.step = self.backend.compile(&plans.step)?;
         self.measure = (self.backend.compile(&plans.measure.0)?, self.backend.compile(&plans.measure.1)?);
-        self.begun &= restart::print(&plans.start) == restart::print(&self.plans.start);
-        self.print = restart::print(&plans.step);
+        let elastic = self.problem.elastic.is_some();
+        self.begun &= restart::print(&plans.start, elastic) == restart::print(&self.plans.start, elastic);
+        self.print = restart::print(&plans.step, elastic);
         self.marks = alarm::marks(&plans);
         self.plan = plans.step.to_string();
         (self.setup, self.problem, self.plans, self.fields) = (setup, Box::new(problem), Box::new(plans), fields);

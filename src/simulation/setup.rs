@@ -189,6 +189,7 @@ impl Setup {
             .with_life(&self.state.births, &self.state.drains, self.state.has_inactive())
             .with_ids(self.state.has_ids() || self.state.capacity.is_some())
             .breaking(self.breaks())
+            .stretched(self.elastic())
             .solved(self.solver)
             .adapted(self.integrator.adaptive_step())
             .precise(self.integrator.precision())
@@ -397,6 +398,7 @@ impl Setup {
         life::check((life, births, drains), held, count, self.bounds.dimensions)?;
         self.has_one_thermostat()?;
         self.has_forces_in_time()?;
+        self.serves_barostat()?;
         inactive::serves(&self.state, &self.forces, self.integrator.as_ref())?;
         if !links.rods.is_empty() && !self.forces.iter().any(|force| force.properties().keeps_rods) {
             let text = format!(

@@ -1,10 +1,11 @@
 //! The virial of all forces of pairs, computed on request.
 
 use super::{Setup, Simulation};
+use crate::component::pressure;
 use crate::error::Error;
-use crate::forces::{Problem, Stage};
+use crate::forces::Problem;
 use crate::kernel::{Array, Backend, Machine, Plan};
-use crate::visit::{VIRIAL, clear_virial, no_virial};
+use crate::visit::VIRIAL;
 
 /// The part of the sizes of the forces on a particle by which they may fail to add up: some hundred roundings of single precision.
 const ROUNDING: f32 = 1e-4;
@@ -19,24 +20,7 @@ impl Setup {
     }
     /// The plan that computes the virial after an evaluation.
     fn virial(&self, problem: &Problem) -> Result<Plan, Error> {
-        if !problem.network.rods.is_empty() {
-            return Err(no_virial("rod", "constrains distances"));
-        }
-        let mut plan = Plan::default();
-        plan.add(clear_virial(problem)?);
-        for force in &self.forces {
-            let laws = force.laws();
-            let mut evaluated = Plan::default();
-            force.stage(Stage::Evaluate { earlier: 0 }, &mut evaluated, problem)?;
-            if evaluated.kernels.len() > laws.len() {
-                let name = laws.first().map_or_else(|| force.name().to_owned(), |law| law.name.clone());
-                return Err(no_virial(&name, "has more than the forces of pairs"));
-            }
-            for law in laws {
-                law.virial(problem)?.into_iter().for_each(|kernel| plan.add(kernel));
-            }
-        }
-        Ok(plan)
+        Ok(Plan::of(pressure::virial(&self.forces, problem)?))
     }
 }
 

@@ -11,6 +11,8 @@ components! {
     andersen: Andersen, "a heat bath with which particles collide at random (Andersen 1980)";
     berendsen: Berendsen, "the temperature relaxes to a given one; for equilibration only (Berendsen et al. 1984)";
     csvr: Csvr, "a thermostat: the kinetic energy relaxes and fluctuates as it does in a heat bath, by one random factor for all velocities (Bussi, Donadio & Parrinello 2007)";
+    berendsen_pressure: BerendsenPressure, "a barostat: the pressure relaxes to a given one; for equilibration only (Berendsen et al. 1984)";
+    cell_rescaling: CellRescaling, "a barostat: the volume of the box relaxes and fluctuates as it does at a given pressure (Bernetti & Bussi 2020)";
     minimize: Minimize, "particles move to a minimum of the potential energy and rest there: FIRE (Bitzek et al. 2006)";
     tear: Tear, "springs that are stretched too far break permanently";
 }

@@ -109,6 +109,10 @@ impl Over {
     pub(super) fn faster(self, moving: bool, problem: &Problem) -> Self {
         let Self::Auto { range, skin } = self else { return self };
         let few = few_neighbors(&problem.machine, moving);
+        // A cell list has the order of its cells, which change with the box.
+        if problem.elastic.is_some() {
+            return Self::List { range, skin, slots: 0 };
+        }
         match problem.neighbors_within(range) {
             Some(mean) if few > 0.0 && mean <= few => Self::List { range, skin, slots: 0 },
             _ => Self::Near { range, of: None },

@@ -135,7 +135,9 @@ fn other_species(value: &Value) -> Value {
 #[test]
 fn every_key_is_read() {
     // A step downhill shows neither where particles rest nor how long steps grow: `tests/physics/molecular/minimum.rs`.
-    for entry in choices::lawful().filter(|entry| entry.name != "minimize") {
+    // A barostat needs a box: `tests/physics/molecular/barostats.rs`.
+    let alone = ["minimize", "berendsen_pressure", "cell_rescaling"];
+    for entry in choices::lawful().filter(|entry| !alone.contains(&entry.name)) {
         let variants = choices::variants(entry.keys);
         // Collisions with a bath are rare in a short step.
         let dt = if entry.name == "andersen" { 1.0 } else { 0.01 };

@@ -63,6 +63,8 @@ pub const EQUIVALENT: &[Equivalent] = &[
     same("list_moved", "limit -= ROUNDING", "-=", "+=", LAST_DIGITS),
     same("list_moved", "limit -= ROUNDING", "*", "/", LAST_DIGITS),
     same("list_moved", "square < limit * limit", "<", "<=", EDGE),
+    same("list_moved", "override REACH: f32 = 1.0;", "1.0", "1.5", ALWAYS_SET),
+    same("list_moved", "if limit <= 0.0", "<=", "<", EDGE),
     same("list_moved", "atomicStore(&list_state[0].moved, 1u)", "1u", "2u", "it is set or not"),
     same("list_search", "< REACH * REACH", "<", "<=", EDGE),
     same("list_search", "if (*sum).number < ROOM", "<", "<=", "a row without room for all is empty"),
@@ -78,6 +80,8 @@ struct Place<'a> {
     has_inactive: bool,
     capacity: u32,
     slots: u32,
+    /// How much longer the sides of the box are after the list was built, where they may change.
+    stretch: Option<f64>,
 }
 
 /// What happens to particles after the list has been built.
@@ -122,7 +126,8 @@ impl Place<'_> {
         let places: Vec<DVec3> = (0..count).map(|_| place(random.vector())).collect();
         let shape = ListShape { range: RANGE, skin: SKIN, words: self.slots, capacity: self.capacity };
         let problem = Problem::new(count as u32, self.machine).at(&places, self.bounds);
-        let problem = problem.with_life(&[], &[], self.has_inactive).listed(Some(shape));
+        let elastic = self.stretch.map(|_| 0.9);
+        let problem = problem.with_life(&[], &[], self.has_inactive).listed(Some(shape)).stretched(elastic);
         let plan = self.plan(&problem);
         let mut simulation = moving(self.device, count, Some(self.machine));
         let clock = pollster::block_on(simulation.backend().world()).expect("a clock");
@@ -142,12 +147,20 @@ impl Place<'_> {
             let program = simulation.backend().compile(&plan).expect("a good plan");
             simulation.backend().run(&program, 1).expect("a run");
             // What it left is read in the next step.
-            let next = World { step: clock.step + u32::from(self.slots > 0), ..clock };
+            let part = self.stretch.unwrap_or(1.0);
+            let low = self.bounds.low.as_vec3().as_dvec3();
+            let high = if part == 1.0 { self.bounds.high } else { (low + part * side).as_vec3().as_dvec3() };
+            let bounds = Bounds { high, ..self.bounds };
+            let next = World { step: clock.step + u32::from(self.slots > 0), bounds, ..clock };
             simulation.backend().set_world(next).expect("a world");
-            let limit = (0.5 * SKIN) as f32;
+            // What lies still in a box that changes moves with it.
+            if part != 1.0 {
+                now.iter_mut().for_each(|x| *x = (low + part * (x.truncate().as_dvec3() - low)).as_vec3().extend(x.w));
+            }
+            let limit = (0.5 * (SKIN + (part - 1.0) * (RANGE + SKIN))).max(0.0) as f32;
             let origin = now[count - 1];
             for (i, x) in now.iter_mut().enumerate() {
-                let way = (random.vector() * 0.07).as_vec3();
+                let way = (random.vector() * 0.56).as_vec3() * limit;
                 // Along one axis each, by all but a hundredth of what is borne.
                 let axis = [glam::Vec3::X, glam::Vec3::NEG_Y, glam::Vec3::Z][i % 3];
                 *x += (if i % 50 < 3 { 0.99 * limit * axis } else { way }).extend(0.0);
@@ -217,8 +230,15 @@ pub fn all(shared: &Shared, stages: &mut Vec<Stage>) {
     let device = &pollster::block_on(support::limited(shared, |_| {}));
     let periodic = Bounds::new(DVec3::new(0.125, 3.0, -2.5), DVec3::new(2.125, 5.5, -0.5), Side::Periodic);
     let open = Bounds { sides: [Side::Open; 3], ..periodic };
-    let place =
-        |machine, bounds, has_inactive, capacity| Place { device, machine, bounds, has_inactive, capacity, slots: 0 };
+    let place = |machine, bounds, has_inactive, capacity| Place {
+        device,
+        machine,
+        bounds,
+        has_inactive,
+        capacity,
+        slots: 0,
+        stretch: None,
+    };
     let lanes = place(LANES, periodic, false, ROOM);
     stages.extend([Since::Never, Since::Little, Since::Much].map(|since| lanes.stage(since)));
     stages.push(place(LANES, open, false, ROOM).stage(Since::Little));
@@ -232,6 +252,12 @@ pub fn all(shared: &Shared, stages: &mut Vec<Stage>) {
     stages.extend(all.map(|since| steps(2).stage(since)));
     stages.extend([Since::Much, Since::Removed].map(|since| steps(3).stage(since)));
     stages.push(Place { slots: 2, ..place(LANES, periodic, false, ROOM) }.stage(Since::Much));
+    // In a box that shrinks and grows, little and so much that no pair is sure to be listed.
+    let stretched = |part: f64| Place { stretch: Some(part), ..place(LANES, periodic, false, ROOM) };
+    for part in [0.9, 1.1] {
+        stages.extend([Since::Little, Since::Much].map(|since| stretched(part).stage(since)));
+    }
+    stages.push(stretched(0.6).stage(Since::Little));
     if subgroups_of_eight(shared) {
         stages.push(place(EIGHT, periodic, false, ROOM).stage(Since::Never));
         stages.push(place(EIGHT, periodic, false, TIGHT).stage(Since::Never));

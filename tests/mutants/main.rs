@@ -3,6 +3,7 @@
 mod adaptive;
 mod adaptive_stages;
 mod alarms;
+mod barostats;
 mod births;
 mod boundary;
 mod columns;
@@ -175,6 +176,7 @@ fn every_mutant_is_noticed() {
         repeat::EQUIVALENT,
         columns::EQUIVALENT,
         matter::EQUIVALENT,
+        barostats::EQUIVALENT,
         minimum::EQUIVALENT,
     ]
     .concat();

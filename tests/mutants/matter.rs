@@ -491,4 +491,5 @@ pub fn all(shared: &Shared, device: &Device, stages: &mut Vec<Stage>) {
     relaxation(device, stages);
     rescaling(device, stages);
     crate::minimum::all(device, stages);
+    crate::barostats::all(&pollster::block_on(support::limited(shared, |_| {})), stages);
 }

@@ -14,7 +14,17 @@ const OWN: [&str; 2] = ["fluid", "contact_wall"];
 
 /// Forces that want other states than a cloud of points: atoms apart, spheres that touch. `tests/physics/matter`,
 /// `tests/physics/molecular` and `tests/mutants/matter.rs` have these.
-const STATED: [&str; 7] = ["contact", "nose_hoover", "langevin", "andersen", "berendsen", "csvr", "minimize"];
+const STATED: [&str; 9] = [
+    "contact",
+    "nose_hoover",
+    "langevin",
+    "andersen",
+    "berendsen",
+    "csvr",
+    "berendsen_pressure",
+    "cell_rescaling",
+    "minimize",
+];
 
 /// Laws of atoms that have no centre at one place.
 pub const ATOMS: [&str; 6] = ["born_mayer", "lennard_jones", "wca", "morse", "yukawa", "soft"];

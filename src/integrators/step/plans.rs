@@ -1,6 +1,7 @@
 //! The plans made from the kernels that an integrator has written.
 
 use super::Step;
+use crate::component::{barostat, pressure};
 use crate::error::Error;
 use crate::forces::{Component, Problem, Stage};
 use crate::integrators::verbs::{adaptive, at, keep, life, tick, watch};
@@ -37,6 +38,7 @@ impl<'a> Step<'a> {
     /// The first error of writing it.
     pub fn done(mut self) -> Result<Plan, Error> {
         self.each(Stage::EndOfStep);
+        self.pressure();
         self.add(if self.problem.adaptive_step.is_some() { adaptive::tick(&self.problem) } else { tick::kernel() });
         self.populate();
         // Particles just spawned take part in the criterion for their first step.
@@ -44,6 +46,13 @@ impl<'a> Step<'a> {
         self.add(watch::kernel(&self.problem));
         self.watch_pairs();
         self.finished()
+    }
+    /// Adds the measurement of the pressure, and what follows from it, where a component needs it.
+    fn pressure(&mut self) {
+        if let Some(every) = self.forces.iter().find_map(|force| force.properties().barostat) {
+            self.add(pressure::kernel(self.forces, &self.problem, every));
+            self.each(Stage::Pressure);
+        }
     }
     /// The plan without step counter and check.
     ///
@@ -72,6 +81,9 @@ impl<'a> Step<'a> {
         let mut step = Self::new(&[], problem.clone());
         step.prove();
         step.add(kernel);
+        if problem.elastic.is_some() {
+            step.add(barostat::advance(problem, false));
+        }
         step.error.map_or(Ok(step.plan), Err)
     }
     /// The two plans around a measurement: the first saves the forces that the next step uses and evaluates them at the present state; the

@@ -109,6 +109,9 @@ fn moved(list: &List, problem: &Problem) -> Result<Pass, Error> {
     ])?;
     let mut constants = problem.constants(&shader);
     constants.push(("LIMIT", list.limit()));
+    if problem.elastic.is_some() {
+        constants.push(("REACH", list.shape.reach()));
+    }
     Ok(Pass { constants, ..Pass::new(shader, problem.capacity) })
 }
 

@@ -68,7 +68,7 @@ fn thermostats_go_on_with_the_same_bits() {
 
 /// The largest difference between how samples are distributed and how they should be, times √n: above 1.95 with a probability of 1e-3
 /// (Kolmogorov 1933).
-fn distance(mut samples: Vec<f64>, cumulative: impl Fn(f64) -> f64) -> f64 {
+pub(super) fn distance(mut samples: Vec<f64>, cumulative: impl Fn(f64) -> f64) -> f64 {
     samples.sort_by(f64::total_cmp);
     let count = samples.len() as f64;
     let off = |(place, x): (usize, &f64)| {
@@ -79,7 +79,7 @@ fn distance(mut samples: Vec<f64>, cumulative: impl Fn(f64) -> f64) -> f64 {
 }
 
 /// Of a sum of 2 n squares of normal numbers, half of it below x: 1 − exp(−x) Σ xᵏ / k!, k < n.
-fn erlang(n: u32, x: f64) -> f64 {
+pub(super) fn erlang(n: u32, x: f64) -> f64 {
     let (mut term, mut sum) = (1.0, 1.0);
     for k in 1..n {
         term *= x / f64::from(k);

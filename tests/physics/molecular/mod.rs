@@ -7,6 +7,7 @@
     reason = "numbers are rounded to what f32 holds, and counts are small"
 )]
 
+mod barostats;
 mod baths;
 mod lammps;
 mod laws;
