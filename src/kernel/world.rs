@@ -62,7 +62,6 @@ impl World {
             step: packed.uint(bytes, "step"),
             count: packed.uint(bytes, "count"),
             free: packed.uint(bytes, "capacity").saturating_sub(packed.uint(bytes, "count")),
-            ..self
         }
     }
 }

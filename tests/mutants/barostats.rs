@@ -7,9 +7,9 @@ use motes::settings::Value::Number;
 use motes::{Bounds, Gpu, Setup, Side, Simulation, Solver};
 
 use crate::stages::{Device, FEW, Stage};
+use crate::support::Random;
 use crate::support::equivalents::{Equivalent, same};
 use crate::support::states::{force, integrator, word};
-use crate::support::Random;
 
 const ALWAYS_SET: &str = "the host sets every override";
 

@@ -126,7 +126,7 @@ impl Place<'_> {
         let places: Vec<DVec3> = (0..count).map(|_| place(random.vector())).collect();
         let shape = ListShape { range: RANGE, skin: SKIN, words: self.slots, capacity: self.capacity };
         let problem = Problem::new(count as u32, self.machine).at(&places, self.bounds);
-        let elastic = self.stretch.map(|_| 0.9);
+        let elastic = self.stretch.map(|part| part.min(0.9));
         let problem = problem.with_life(&[], &[], self.has_inactive).listed(Some(shape)).stretched(elastic);
         let plan = self.plan(&problem);
         let mut simulation = moving(self.device, count, Some(self.machine));
@@ -253,7 +253,10 @@ pub fn all(shared: &Shared, stages: &mut Vec<Stage>) {
     stages.extend([Since::Much, Since::Removed].map(|since| steps(3).stage(since)));
     stages.push(Place { slots: 2, ..place(LANES, periodic, false, ROOM) }.stage(Since::Much));
     // In a box that shrinks and grows, little and so much that no pair is sure to be listed.
-    let stretched = |part: f64| Place { stretch: Some(part), ..place(LANES, periodic, false, ROOM) };
+    let stretched = |part: f64| {
+        let room = (f64::from(ROOM) / part.min(1.0).powi(3) / 4.0).ceil() as u32 * 4;
+        Place { stretch: Some(part), ..place(LANES, periodic, false, room) }
+    };
     for part in [0.9, 1.1] {
         stages.extend([Since::Little, Since::Much].map(|since| stretched(part).stage(since)));
     }

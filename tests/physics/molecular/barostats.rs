@@ -208,7 +208,7 @@ fn what_a_barostat_does_not_serve_is_refused() {
     };
     refused(with(barostat("cell_rescaling", 1.0, 0.2, 1.0, 10)), "another barostat");
     refused(with(force("uniform", &[])), "acts on single particles");
-    refused(with(force("boids", &[])), "not equal and opposite");
+    refused(with(force("boids", &[("over", word("list"))])), "not equal and opposite");
     refused(Setup { forces: vec![cut(1.5, "cut", "near"), pushed()], ..good() }, "choose over = \"list\"");
     refused(Setup { integrator: integrator("rk4"), ..good() }, "choose leapfrog");
     refused(Setup { forces: vec![cut(2.9, "cut", "list"), pushed()], ..good() }, "more than half of it");
