@@ -56,6 +56,32 @@ typed! {
         /// Seed of the random numbers, counted by id and step.
         seed: u64,
     }
+    /// A barostat: the pressure relaxes to a given one; for equilibration only (Berendsen et al. 1984).
+    BerendsenPressure "berendsen_pressure" berendsen_pressure(pressure: f64, compressibility: f64) {
+        /// P₀, that of the measure `pressure` \[mass / length / time²; mass / time² in the plane\].
+        pressure: f64,
+        /// κ, an estimate of −(∂V / ∂P) / V: only κ / τ matters \[length · time² / mass; time² / mass in the plane\].
+        compressibility: f64,
+        /// τ, the relaxation time of the pressure, if the compressibility is right \[time\].
+        time: f64,
+        /// The number of steps from one change of the box to the next: each measures the pressure, which takes as long as the forces.
+        every: u32,
+    }
+    /// A barostat: the volume of the box relaxes and fluctuates as it does at a given pressure (Bernetti & Bussi 2020).
+    CellRescaling "cell_rescaling" cell_rescaling(pressure: f64, temperature: f64, compressibility: f64) {
+        /// P₀, that of the measure `pressure` \[mass / length / time²; mass / time² in the plane\].
+        pressure: f64,
+        /// K T, twice the mean kinetic energy of a degree of freedom \[energy\].
+        temperature: f64,
+        /// κ, an estimate of −(∂V / ∂P) / V: only κ / τ matters \[length · time² / mass; time² / mass in the plane\].
+        compressibility: f64,
+        /// τ, the relaxation time of the pressure, if the compressibility is right \[time\].
+        time: f64,
+        /// The number of steps from one change of the box to the next: each measures the pressure, which takes as long as the forces.
+        every: u32,
+        /// Seed of the random numbers, counted by id and step.
+        seed: u64,
+    }
     /// Particles move to a minimum of the potential energy and rest there: FIRE (Bitzek et al. 2006).
     Minimize "minimize" minimize(tolerance: f64, largest_move: f64) {
         /// The largest force on a particle at which all rest \[force\].
