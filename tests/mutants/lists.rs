@@ -149,12 +149,12 @@ impl Place<'_> {
             // What it left is read in the next step.
             let part = self.stretch.unwrap_or(1.0);
             let low = self.bounds.low.as_vec3().as_dvec3();
-            let high = if part == 1.0 { self.bounds.high } else { (low + part * side).as_vec3().as_dvec3() };
+            let high = self.stretch.map_or(self.bounds.high, |part| (low + part * side).as_vec3().as_dvec3());
             let bounds = Bounds { high, ..self.bounds };
             let next = World { step: clock.step + u32::from(self.slots > 0), bounds, ..clock };
             simulation.backend().set_world(next).expect("a world");
             // What lies still in a box that changes moves with it.
-            if part != 1.0 {
+            if self.stretch.is_some() {
                 now.iter_mut().for_each(|x| *x = (low + part * (x.truncate().as_dvec3() - low)).as_vec3().extend(x.w));
             }
             let limit = (0.5 * (SKIN + (part - 1.0) * (RANGE + SKIN))).max(0.0) as f32;
@@ -253,14 +253,12 @@ pub fn all(shared: &Shared, stages: &mut Vec<Stage>) {
     stages.extend([Since::Much, Since::Removed].map(|since| steps(3).stage(since)));
     stages.push(Place { slots: 2, ..place(LANES, periodic, false, ROOM) }.stage(Since::Much));
     // In a box that shrinks and grows, little and so much that no pair is sure to be listed.
-    let stretched = |part: f64| {
-        let room = (f64::from(ROOM) / part.min(1.0).powi(3) / 4.0).ceil() as u32 * 4;
-        Place { stretch: Some(part), ..place(LANES, periodic, false, room) }
-    };
-    for part in [0.9, 1.1] {
-        stages.extend([Since::Little, Since::Much].map(|since| stretched(part).stage(since)));
+    let stretched = |part, room| Place { stretch: Some(part), ..place(LANES, periodic, false, room) };
+    // What shrinks is denser, by the cube of that.
+    for (part, room) in [(0.9, 132), (1.1, ROOM)] {
+        stages.extend([Since::Little, Since::Much].map(|since| stretched(part, room).stage(since)));
     }
-    stages.push(stretched(0.6).stage(Since::Little));
+    stages.push(stretched(0.6, 448).stage(Since::Little));
     if subgroups_of_eight(shared) {
         stages.push(place(EIGHT, periodic, false, ROOM).stage(Since::Never));
         stages.push(place(EIGHT, periodic, false, TIGHT).stage(Since::Never));
