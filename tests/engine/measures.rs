@@ -12,6 +12,7 @@ use motes::settings::{Settings, Value};
 use motes::{Bounds, Error, Setup, Side, State};
 
 use crate::support::Random;
+use crate::support::states::{force, word};
 
 fn setup(state: &State, bounds: Bounds) -> Setup {
     Setup {
@@ -36,7 +37,12 @@ fn rows(name: &str, state: &State, bounds: Bounds, sets: &[(&'static str, Value)
     let potential = motes::Column::new("potential", motes::Kind::Scalar, "", "").derived();
     state.declare(&potential).expect("a column");
     state.set("potential", Array::Float(vec![0.0; state.len()])).expect("a column");
-    let mut series = (measure.begin)(&setup(&state, bounds), &settings)?;
+    let mut setup = setup(&state, bounds);
+    // Corrections are those of a law.
+    if name == "tail" {
+        setup.forces.push(force("lennard_jones", &[("range", Value::Number(1.0)), ("truncation", word("cut"))]));
+    }
+    let mut series = (measure.begin)(&setup, &settings)?;
     let moment = Moment { state: &Arc::new(state), density: &[], clock: None, links: None, virial: Some(VIRIAL) };
     series.take(&moment)
 }
