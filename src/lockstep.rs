@@ -7,13 +7,13 @@ mod truncation;
 use nudge::{Nudged, nudged};
 pub use truncation::{Truncation, truncation};
 
-use glam::DVec4;
+use glam::{DVec3, DVec4};
 
 use crate::error::Error;
 use crate::gpu::Gpu;
 use crate::kernel::{
-    ACCELERATION, Access, Array, Backend, Host, Kernel, LIFE, Name, Next, POSITION, Plan, VELOCITY, World, high_words,
-    joined,
+    ACCELERATION, Access, Array, Backend, Host, Kernel, LIFE, Name, Next, POSITION, Plan, Side, VELOCITY, World,
+    high_words, joined,
 };
 
 /// The tolerated error of a kernel, relative to the change: a sum of n terms of one magnitude has a rounding error of about √n ulp, and
@@ -143,7 +143,8 @@ pub async fn compare_while(
         let before: Vec<_> = fields.iter().map(|(name, ..)| host.get(name)).collect();
         reference(&host)?;
         if kernel.writes().iter().any(|name| name == "world") {
-            verdicts.push(worlds(&kernel.name, world, gpu.world().await?, host.world()));
+            let (got, periods) = (gpu.world().await?, gpu.periods().await?.map(|x| x.as_dvec3()));
+            verdicts.push(worlds(&kernel.name, world, (got, periods), host.world()));
         }
         for name in &scratch {
             let used = used(kernel, name, count);
@@ -300,7 +301,7 @@ fn parts(v: DVec4) -> [f64; 2] {
     [v.truncate().length(), v.w.abs()]
 }
 
-fn worlds(kernel: &str, before: World, got: World, want: World) -> Verdict {
+fn worlds(kernel: &str, before: World, (got, [period, frequency]): (World, [DVec3; 2]), want: World) -> Verdict {
     let allowed = 4.0 * f64::from(f32::EPSILON) * want.time.abs().max(want.dt);
     let same = got.step == want.step && got.count == want.count;
     // A dt by itself: it must be right however late it is.
@@ -308,7 +309,14 @@ fn worlds(kernel: &str, before: World, got: World, want: World) -> Verdict {
     let side = |world: &World| world.bounds.high - world.bounds.low;
     let places = 4.0 * f64::from(f32::EPSILON) * want.bounds.high.abs().max_element().max(side(&want).max_element());
     let corner = (got.bounds.high - want.bounds.high).abs().max_element() / places.max(f64::MIN_POSITIVE);
-    let worst = if same { ((got.time - want.time).abs() / allowed).max(length).max(corner) } else { f64::INFINITY };
+    // What is derived from the corners, as a part of it too.
+    let sides = (period - want.bounds.period()).abs().max_element() / places.max(f64::MIN_POSITIVE);
+    let turns = (frequency * want.bounds.period() - want.bounds.frequency() * want.bounds.period()).abs();
+    let turns = turns.max((frequency * (DVec3::ONE - want.bounds.axes(Side::Periodic))).abs()).max_element();
+    let shortest = want.bounds.period().to_array().into_iter().filter(|side| *side > 0.0).fold(f64::INFINITY, f64::min);
+    let turns = turns / (4.0 * f64::from(f32::EPSILON) + places / shortest);
+    let worst = ((got.time - want.time).abs() / allowed).max(length).max(corner).max(sides).max(turns);
+    let worst = if same && !worst.is_nan() { worst } else { f64::INFINITY };
     Verdict { kernel: kernel.to_owned(), field: "world".to_owned(), worst, changed: before != want, ..Verdict::none() }
 }
 

@@ -2,6 +2,7 @@
 
 mod adaptive_step;
 mod alarm;
+mod barostat;
 mod columns;
 mod elastic;
 mod fields;

@@ -6,8 +6,8 @@
 @group(1) @binding(2) var<storage, read> virial: array<vec4f>;   // see visit/virial.wgsl
 @group(1) @binding(3) var<storage, read_write> pressure_parts: array<vec4f>;
 
-// The part of the sizes of the forces by which they may fail to add up: some hundred roundings.
-const ROUNDING: f32 = 1e-4;
+// The part of the sizes of the forces by which they may fail to add up.
+override ROUNDING: f32 = 0.0;
 const WORKGROUP: u32 = 64u;
 
 @compute @workgroup_size(WORKGROUP)

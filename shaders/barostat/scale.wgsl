@@ -1,8 +1,9 @@
-// Particles move with the box: x ← x + (x − low) c, where its sides have changed by the part c; and where it is asked for, v ← v / (1 + c).
+// Particles move with the box: x ← x + (x − low) c, where its sides have changed by the parts c, 0 where there is no period; and where it is
+// asked for, v ← v / (1 + c).
 @group(0) @binding(0) var<uniform> world: World;
 @group(1) @binding(0) var<storage, read_write> position: array<vec4f>; // xyz, mass
 @group(1) @binding(1) var<storage, read_write> velocity: array<vec4f>; // xyz, radius
-@group(1) @binding(2) var<storage, read> box_change: array<f32>;
+@group(1) @binding(2) var<storage, read> box_change: array<vec4f>;
 
 override VELOCITIES: bool = false;
 const WORKGROUP: u32 = 64u;
@@ -11,7 +12,7 @@ const WORKGROUP: u32 = 64u;
 fn box_scale(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u, @builtin(local_invocation_index) lane: u32) {
     let i = folded(group, groups) * WORKGROUP + lane;
     if i < world.count {
-        let change = box_change[0];
+        let change = box_change[0].xyz;
         let x = position[i];
         let moved = x.xyz + (x.xyz - world.low) * change;
         // What rounds to the far side is at the near one.

@@ -20,7 +20,7 @@ fn has_moved(i: u32) -> bool {
     var start = origin.xyz;
     if ELASTIC && present {
         let part = world.period.x / origin.w;
-        start = world.low + part * (start - world.low);
+        start = select(start, world.low + part * (start - world.low), world.period > vec3f());
         limit += 0.5 * (part - 1.0) * REACH;
         if limit <= 0.0 { return true; }
     }

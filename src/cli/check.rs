@@ -132,7 +132,7 @@ async fn examined(args: &CheckArgs) -> Result<Report, Failure> {
         particles: count,
         course: format!("{} by {}", course::words(&scene), scene.integrator.name),
         device: engine.describe(),
-        bounds: Some(scene.bounds).filter(|bounds| *bounds != Bounds::default()),
+        bounds: Some(setup.bounds).filter(|bounds| *bounds != Bounds::default()),
         fluid: lines,
         forecast: motes::diagnose::forecast(&setup, end),
         fields,

@@ -140,7 +140,8 @@ async fn steps(found: &gpu::Found, setup: &Setup, steps: u32) -> Result<Over, Fa
     references.step(steps)?;
     let (a, b) = (device.snapshot().await?, references.snapshot().await?);
     let (x, y) = (a.position(), b.position());
-    let errors: Vec<f64> = x.iter().zip(y).map(|(x, y)| apart(setup, *x, *y)).collect();
+    let bounds = b.boxed(&setup.bounds);
+    let errors: Vec<f64> = x.iter().zip(y).map(|(x, y)| bounds.shortest(*x - *y).length()).collect();
     let rms = |of: &[f64]| (of.iter().map(|e| e * e).sum::<f64>() / of.len().max(1) as f64).sqrt();
     let center = Energy::of(&b)?.center;
     let distances: Vec<f64> = y.iter().map(|y| y.distance(center)).collect();
@@ -157,12 +158,8 @@ async fn steps(found: &gpu::Found, setup: &Setup, steps: u32) -> Result<Over, Fa
 
 fn travelled(after: &State, setup: &Setup) -> Vec<f64> {
     let before: &[DVec3] = setup.state.position();
-    after.position().iter().zip(before).map(|(x, y)| apart(setup, *x, *y)).collect()
-}
-
-/// The vector from a position to the nearest image of another.
-fn apart(setup: &Setup, x: DVec3, y: DVec3) -> f64 {
-    setup.bounds.shortest(x - y).length()
+    let bounds = after.boxed(&setup.bounds);
+    after.position().iter().zip(before).map(|(x, y)| bounds.shortest(*x - *y).length()).collect()
 }
 
 fn print_kernels(verdicts: &[Verdict]) {

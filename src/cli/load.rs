@@ -86,7 +86,7 @@ pub async fn load(args: &SceneArgs, more: &[String]) -> Result<Loaded, Failure> 
 
 /// Examines a loaded scene.
 pub async fn judge(mut scene: Scene) -> Result<Loaded, Failure> {
-    let setup = scene.setup();
+    let setup = scene.setup().in_its_box()?.into_owned();
     let Judged { verdict, start, lines, remarks } = Judged::of(&setup, scene.steps).await?;
     scene.remarks.extend(remarks.iter().map(Remark::to_string));
     Ok(Loaded { scene, setup, verdict, start, lines })

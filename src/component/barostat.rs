@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use glam::{DVec3, Vec4};
 
+use super::Pressed;
 use super::bath::TEMPERATURE;
 use crate::error::Error;
 use crate::kernel::{
@@ -14,10 +15,14 @@ use crate::settings::{Key, Kind, Settings, Value};
 
 /// The highest corner of the box.
 pub const CORNER: Field<Vec4> = Field::new("box_corner");
+/// What is still to be added to it: what single precision rounds from it, and changes that positions do not resolve.
+const CORNER_LOW: Field<Vec4> = Field::new("box_corner_low");
 /// The change of the logarithm of the volume in the next step.
 pub(crate) const STRAIN: Field<f32> = Field::new("box_strain");
-/// The relative change of the sides in this step.
-const CHANGE: Field<f32> = Field::new("box_change");
+/// The relative change of each side in this step.
+const CHANGE: Field<Vec4> = Field::new("box_change");
+/// The part of a coordinate by which the corner moves at least: see `shaders/barostat/advance.wgsl`.
+const RESOLVED: f64 = 1.0 / 131_072.0;
 /// The shortest side so far, the largest change, and how many particles had forces that did not add up.
 pub(crate) const WATCH: Field<Vec4> = Field::new("box_watch");
 /// Σ m v², the virial, and how many particles have forces that do not add up.
@@ -69,12 +74,20 @@ pub(crate) struct Barostat {
     pub temperature: Option<f64>,
 }
 
+/// The column of the corner of the box.
+pub(crate) fn corner() -> Column {
+    let about = "the highest corner of the box, which a barostat moves; the lowest one stays";
+    Column::new(CORNER.name, Element::Vector, "length", about).shaped(Shape::System(1))
+}
+
 /// The columns of the box.
 pub(crate) fn columns() -> Vec<Column> {
     let one = |name, kind, unit, about| Column::new(name, kind, unit, about).shaped(Shape::System(1));
-    let corner = "the highest corner of the box, which a barostat moves; the lowest one stays";
+    let low =
+        "what is still to be added to the corner of the box: its rounding, and changes that positions do not resolve";
     vec![
-        one(CORNER.name, Element::Vector, "length", corner),
+        corner(),
+        one(CORNER_LOW.name, Element::Vector, "length", low),
         one(
             STRAIN.name,
             Element::Scalar,
@@ -96,6 +109,10 @@ impl Barostat {
             temperature: fluctuates.then(|| number(TEMPERATURE)),
         }
     }
+    /// How it changes the box.
+    pub fn pressed(self) -> Pressed {
+        Pressed { every: self.every, time: self.time }
+    }
     /// The kernel of one invocation that finds the next change from the pressure; `noise` is the width of its random part, by the step and
     /// the volume.
     pub fn decide(
@@ -103,9 +120,7 @@ impl Barostat {
         files: &[Source],
         more: &[(&'static str, f64)],
         noise: impl Fn(u32) -> f64 + Send + Sync + 'static,
-        problem: &Problem,
     ) -> Result<Kernel, Error> {
-        self.serves(problem)?;
         let ground = [crate::shader!("world.wgsl"), crate::shader!("barostat/pressure.wgsl")];
         let shader = Shader::join(&[&ground[..], files].concat())?;
         let rate = self.compressibility / self.time;
@@ -134,39 +149,6 @@ impl Barostat {
     pub fn change(self, problem: &Problem) -> Result<[Kernel; 2], Error> {
         Ok([advance(problem, true)?, scale(problem, self.temperature.is_some())?])
     }
-    /// Refuses what it does not serve.
-    fn serves(self, problem: &Problem) -> Result<(), Error> {
-        let refuse = |why: String| Err(Error::Scene(format!("{} {why}", self.name)));
-        let bounds = &problem.bounds;
-        let axes = bounds.dimensions as usize;
-        if bounds.sides[..axes].iter().any(|side| *side != Side::Periodic) {
-            return refuse(format!(
-                "changes a box that is periodic on all sides, and here {bounds}: set [box] boundary = \"periodic\""
-            ));
-        }
-        if !problem.held.is_empty() {
-            return refuse(
-                "moves all particles with the box: leave out those that are fixed or move as prescribed".to_owned(),
-            );
-        }
-        if problem.has_inactive {
-            return refuse("keeps the same particles all the time: leave out emitters and drains".to_owned());
-        }
-        if !problem.network.rods.is_empty() {
-            return refuse("stretches all distances, and rods keep theirs: leave out the rods".to_owned());
-        }
-        if problem.precision.is_double() {
-            return refuse("moves positions of single precision: leave out precision = \"compensated\"".to_owned());
-        }
-        let span = f64::from(self.every) * problem.dt;
-        if span > 0.2 * self.time {
-            return refuse(format!(
-                "changes the box every {} steps of {}, which is more than a fifth of its relaxation time {}: choose a longer time, or lower `every`",
-                self.every, problem.dt, self.time
-            ));
-        }
-        Ok(())
-    }
 }
 
 /// Whether the box is to be changed after this step.
@@ -181,17 +163,31 @@ pub(crate) fn volume(bounds: &Bounds) -> f64 {
 
 /// Changes the box, if `applies`; and gives it to all kernels.
 pub(crate) fn advance(problem: &Problem, applies: bool) -> Result<Kernel, Error> {
-    let shader = Shader::join(&[crate::shader!("world.wgsl"), crate::shader!("barostat/advance.wgsl")])?;
+    let shader = Shader::join(&[
+        crate::shader!("world.wgsl"),
+        crate::shader!("integrators/two_sum.wgsl"),
+        crate::shader!("barostat/advance.wgsl"),
+    ])?;
     let reference = move |host: &Host| {
         let mut world = host.world();
         let mut corner = host.write(CORNER)?;
         let periodic = world.bounds.axes(Side::Periodic);
         if applies {
-            let mut strain = host.write(STRAIN)?;
-            let change = (strain[0] / f64::from(world.bounds.dimensions)).exp_m1();
+            let (mut strain, mut low) = (host.write(STRAIN)?, host.write(CORNER_LOW)?);
             let side = corner[0].truncate() - world.bounds.low;
-            corner[0] += (side * periodic * change).extend(0.0);
-            (host.write(CHANGE)?[0], strain[0]) = (change, 0.0);
+            let change = (strain[0] / f64::from(world.bounds.dimensions)).exp_m1();
+            let due = (side * change + low[0].truncate()) * periodic;
+            let before = corner[0].truncate();
+            let size = before.abs().max(world.bounds.low.abs());
+            let moves = (due.abs() * periodic).cmpge(RESOLVED * size) & periodic.cmpgt(DVec3::ZERO);
+            // In single precision here too, so that a state holds all of it whatever it was made by.
+            let next = if moves.any() { (before + due).as_vec3().as_dvec3() } else { before };
+            let next = DVec3::select(periodic.cmpgt(DVec3::ZERO), next, before);
+            low[0] = (due - (next - before)).extend(0.0);
+            let made = DVec3::select(periodic.cmpgt(DVec3::ZERO), (next - before) / side, DVec3::ZERO);
+            host.write(CHANGE)?[0] = made.extend(0.0);
+            corner[0] = next.extend(0.0);
+            strain[0] = 0.0;
             let (watch, side) = (&mut host.write(WATCH)?[0], corner[0].x - world.bounds.low.x);
             watch.x = if watch.x == 0.0 { side } else { watch.x.min(side) };
         }
@@ -207,13 +203,9 @@ pub(crate) fn advance(problem: &Problem, applies: bool) -> Result<Kernel, Error>
         constants.push(("APPLY", 0.0));
     }
     let pass = Pass { constants, ..Pass::new(shader, 1) }.on(&[("box_go", GO.into())]);
-    let ones = [CORNER, WATCH].map(|field| field.name);
-    let sizes = ones
-        .into_iter()
-        .chain([STRAIN.name, CHANGE.name])
-        .map(|name| (Name::from(name), 1))
-        .chain([(GO.into(), 3)])
-        .collect();
+    let ones = [CORNER, CORNER_LOW, CHANGE, WATCH].map(|field| field.name);
+    let sizes =
+        ones.into_iter().chain([STRAIN.name]).map(|name| (Name::from(name), 1)).chain([(GO.into(), 3)]).collect();
     Ok(Kernel {
         name: if applies { "box" } else { "box at the start" }.to_owned(),
         passes: vec![pass],
@@ -233,8 +225,8 @@ fn scaling(problem: &Problem, velocities: bool) -> Result<Pass, Error> {
 /// Moves particles with the box, and changes their velocities.
 fn scale(problem: &Problem, velocities: bool) -> Result<Kernel, Error> {
     let reference: Reference = Arc::new(move |host: &Host| {
-        let (change, bounds) = (host.read(CHANGE)?[0], host.world().bounds);
-        if change == 0.0 {
+        let (change, bounds) = (host.read(CHANGE)?[0].truncate(), host.world().bounds);
+        if change == DVec3::ZERO {
             return Ok(());
         }
         let periodic = bounds.axes(Side::Periodic);

@@ -207,8 +207,10 @@ pub struct Properties {
     pub dissipates_at_walls: Vec<&'static str>,
     /// Whether it is a thermostat of all particles: a simulation has one at most.
     pub thermostat: bool,
-    /// Whether it is a barostat, which changes the box, and the number of steps after each of which it needs the pressure.
-    pub barostat: Option<u32>,
+    /// The temperature k T of the states that it leads to \[energy\].
+    pub temperature: Option<f64>,
+    /// Whether it is a barostat, which changes the box.
+    pub barostat: Option<Pressed>,
     /// Whether it needs the forces of the positions at which a step begins: `ends_with_forces` of the integrator.
     pub needs_forces: bool,
     /// Whether it changes the angular momentum.
@@ -225,6 +227,15 @@ pub struct Properties {
     pub largest: Vec<Largest>,
     /// A remark for the user before a run.
     pub caution: Option<&'static str>,
+}
+
+/// How a barostat changes the box.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Pressed {
+    /// The number of steps from one change to the next, for each of which it needs the pressure.
+    pub every: u32,
+    /// The relaxation time of the pressure \[time\].
+    pub time: f64,
 }
 
 /// Integrals of a pair potential U from its cut-off radius R on.

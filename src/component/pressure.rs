@@ -18,8 +18,8 @@ const GO: &str = "arguments of the pressure";
 const ALL: &str = "pressure_all";
 /// Words of the arguments of a dispatch.
 const EACH: u32 = 3;
-/// The part of the sizes of the forces on a particle by which they may fail to add up: see `shaders/barostat/measure.wgsl`.
-const ROUNDING: f64 = 1e-4;
+/// The part of the sizes of the forces on a particle by which they may fail to add up: some hundred roundings of single precision.
+pub(crate) const ROUNDING: f64 = 1e-4;
 
 /// The kernels that compute the virial of all forces of pairs after an evaluation.
 ///
@@ -100,6 +100,7 @@ fn measure(problem: &Problem) -> Result<Kernel, Error> {
         host.write(PARTS)?.iter_mut().zip(parts).for_each(|(part, (one, two))| *part = of(one, two));
         Ok(())
     };
-    let kernel = Kernel::new("pressure measure", shader, Vec::new(), problem.capacity, Arc::new(reference));
+    let constants = vec![("ROUNDING", ROUNDING)];
+    let kernel = Kernel::new("pressure measure", shader, constants, problem.capacity, Arc::new(reference));
     Ok(Kernel { sizes: vec![(VIRIAL.name.into(), 2 * u64::from(problem.capacity))], ..kernel })
 }

@@ -100,6 +100,7 @@ fn idle(links: &Links, laws: &[Law]) -> Vec<Remark> {
 /// # Errors
 /// When the setup is invalid.
 pub fn conserved(setup: &Setup) -> Result<Conserved, Error> {
+    let setup = &*setup.in_its_box()?;
     let (periodic, reflecting) = (setup.bounds.has(Side::Periodic), setup.bounds.has(Side::Reflecting));
     let mut conserved = Conserved {
         energy: true,
@@ -170,10 +171,12 @@ fn inside(setup: &Setup) -> Result<Option<Remark>, Error> {
 /// # Errors
 /// [`Error::Scene`] when a force leads out of the plane of a flat box, or the setup is invalid.
 pub fn advice(setup: &Setup, end: Option<f64>) -> Result<Vec<Remark>, Error> {
+    let setup = &*setup.in_its_box()?;
     let mut remarks = Vec::new();
     remarks.extend(inside(setup)?);
     remarks.extend(end.into_iter().flat_map(|end| births::early(setup, end)));
     let end = end.unwrap_or(f64::INFINITY);
+    remarks.extend(super::baths::remark(setup));
     remarks.extend(rounding::crossings(setup));
     remarks.extend(jumps::remarks(setup, end));
     let problem = setup.problem(MACHINE)?;

@@ -2,6 +2,7 @@
 //! not allow, particles that overlap, numbers that single precision loses.
 
 mod advice;
+mod baths;
 mod births;
 mod contradictions;
 mod far;
@@ -92,6 +93,7 @@ const STEPS: u64 = 10_000;
 /// [`Error::Scene`] when it makes no sense, or could not but be lost: forces that lead out of the plane of a flat box, a fluid in steps
 /// that are far too long, or one that starts under a pressure that blows it apart.
 pub async fn diagnose(setup: &Setup) -> Result<Vec<Remark>, Error> {
+    let setup = &*setup.in_its_box()?;
     let Judged { verdict, mut remarks, .. } = Judged::of(setup, STEPS).await?;
     remarks.extend(verdict.and_then(|verdict| unsafe_steps(&verdict, setup)));
     remarks.extend(advice(setup, None)?);
@@ -117,6 +119,7 @@ impl Judged {
     /// # Errors
     /// As of [`diagnose`].
     pub async fn of(setup: &Setup, steps: u64) -> Result<Self, Error> {
+        let setup = &*setup.in_its_box()?;
         let build = || setup.integrator.in_fixed_steps();
         let (start, mut lines, mut remarks) = (setup.start()?, Vec::new(), Vec::new());
         if let Some(start) = &start {
@@ -139,6 +142,7 @@ impl Judged {
 /// # Errors
 /// When the setup is invalid.
 pub fn of_machine(setup: &Setup, machine: Machine, single: bool) -> Result<Vec<Remark>, Error> {
+    let setup = &*setup.in_its_box()?;
     let rounded = if single { rounding::remarks(setup) } else { Vec::new() };
     Ok(far::remarks(setup, machine)?.into_iter().chain(rounded).collect())
 }

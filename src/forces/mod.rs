@@ -5,7 +5,7 @@ mod custom;
 pub use custom::{Custom, scalar};
 
 pub use crate::component::{
-    Change, Component, Entry, Projection, Properties, Resolved, Role, Stage, Tail, evaluate, numbered,
+    Change, Component, Entry, Pressed, Projection, Properties, Resolved, Role, Stage, Tail, evaluate, numbered,
 };
 pub use crate::constraints::*;
 pub use crate::interactions::*;

@@ -30,7 +30,7 @@ use self::atomic::verified;
 pub use self::contents::{Contents, Heading, contents, known};
 pub use self::convert::{Converted, convert};
 use crate::error::Error;
-use crate::kernel::{Bounds, Columns};
+use crate::kernel::{Array, Bounds, Columns};
 use crate::state::State;
 
 /// The precision of numbers in a file.
@@ -162,10 +162,22 @@ pub fn format(name: &str) -> Option<&'static Format> {
 /// # Errors
 /// [`Error::Input`], with the file and the line or byte offset of all of its faults.
 pub fn read(path: &Path, columns: &Columns) -> Result<State, Error> {
-    match of(path)?.and_then(|format| format.read) {
-        Some(read) => read(path, columns),
-        None => Err(input(path, "is not of a known format")),
+    let Some((format, read)) = of(path)?.and_then(|format| Some((format, format.read?))) else {
+        return Err(input(path, "is not of a known format"));
+    };
+    // A box that a barostat has changed is read whether there is a barostat or not; files that hold no such columns have it in their headers.
+    let corner = crate::component::barostat::corner();
+    let known = columns.get(&corner.name);
+    let unknown = [&corner].into_iter().filter(|_| known.is_none());
+    let mut state = read(path, &Columns::with(columns.iter().chain(unknown).cloned())?)?;
+    if known == Some(&corner)
+        && state.get(&corner.name).is_none()
+        && let Some(bounds) = (format.contents)(path)?.bounds
+    {
+        state.declare(&corner)?;
+        state.set(&corner.name, Array::Vec3(vec![bounds.high]))?;
     }
+    Ok(state)
 }
 
 /// The format of an existing file: by its extension, or by its first bytes if the extension does not determine it.

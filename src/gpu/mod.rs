@@ -158,6 +158,14 @@ impl Gpu {
         let bytes = self.bytes("world", 0, self.packed.size as u64).await?;
         Ok(self.world.updated(&self.packed, &bytes))
     }
+    /// Reads the periods of the box and one over them, which all kernels know beside its corners.
+    ///
+    /// # Errors
+    /// When the device is lost, or does not answer in time.
+    pub(crate) async fn periods(&mut self) -> Result<[glam::Vec3; 2], Error> {
+        let bytes = self.bytes("world", 0, self.packed.size as u64).await?;
+        Ok(["period", "frequency"].map(|name| self.packed.vector(&bytes, name)))
+    }
     /// Reads the bytes of a field.
     ///
     /// # Errors

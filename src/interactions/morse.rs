@@ -1,7 +1,8 @@
 //! Morse's energy of a bond.
 
-use super::pair_potential::{Energy, ONSET, PAIRS, RANGE, TRUNCATION, factor, law, length, rows};
+use super::pair_potential::{Energy, ONSET, PAIRS, RANGE, TRUNCATION, factor, law, length, rows, tails};
 use super::{Component, Law, SEE_NEAR, SKIN, over};
+use crate::component::Tail;
 use crate::settings::{Key, Kind, Settings, Value};
 
 /// The keys in a scene.
@@ -24,6 +25,9 @@ const COEFFICIENTS: &[Key] = &[
     length("distance", "r₀ of the pair, in units of `distance`"),
 ];
 
+/// The coefficients of the law.
+const NAMES: [&str; 3] = ["depth", "steepness", "distance"];
+
 /// `morse`: U = D [exp(−2 α (r − r₀)) − 2 exp(−α (r − r₀))] up to the range (Morse, Phys. Rev. 34, 57, 1929).
 #[derive(Clone)]
 pub struct Morse(Settings);
@@ -44,9 +48,11 @@ fn energy(coefficients: &[f64], r: f64) -> Energy {
 }
 
 impl Component for Morse {
+    fn tails(&self) -> Vec<Tail> {
+        tails(&self.0, &rows(&self.0, &NAMES, None), energy)
+    }
     fn laws(&self) -> Vec<Law> {
-        let names = ["depth", "steepness", "distance"];
         let file = ("morse", crate::shader!("interactions/morse.wgsl"));
-        vec![law(file, &self.0, over(&self.0, None), &names, &rows(&self.0, &names, None), energy)]
+        vec![law(file, &self.0, over(&self.0, None), &NAMES, &rows(&self.0, &NAMES, None), energy)]
     }
 }

@@ -86,29 +86,34 @@ fn find(rows: &[Row], [a, b]: [u32; 2]) -> Option<&Row> {
     rows.iter().find(|row| row.species == [a, b] || row.species == [b, a])
 }
 
-/// The integrals of an energy beyond the range, where nothing else ends it; by Simpson's rule over t = R / r.
+/// The integrals of an energy beyond the range, where nothing else ends it; by Simpson's rule over t = R / r. An integral that twice as many
+/// steps change is infinite, as that of 1 / r.
 pub(super) fn tails(settings: &Settings, rows: &[Row], energy: fn(&[f64], f64) -> Energy) -> Vec<Tail> {
     const STEPS: u32 = 1000;
     if settings.text("truncation") != "cut" {
         return Vec::new();
     }
     let range = settings.number("range");
-    let of = |row: &Row| {
-        let integral = |of: &dyn Fn(f64) -> f64| {
-            let h = 1.0 / f64::from(STEPS);
-            // At t = 0 there is nothing left.
-            let term = |k: u32| {
-                let t = h * f64::from(k);
-                let weight = if k == STEPS { 1.0 } else { f64::from(2 + 2 * (k % 2)) };
-                weight * of(range / t) * range / (t * t)
-            };
-            (1..=STEPS).map(term).sum::<f64>() * h / 3.0
+    let simpson = |of: &dyn Fn(f64) -> f64, steps: u32| {
+        let h = 1.0 / f64::from(steps);
+        // At t = 0 there is nothing left.
+        let term = |k: u32| {
+            let t = h * f64::from(k);
+            let weight = if k == steps { 1.0 } else { f64::from(2 + 2 * (k % 2)) };
+            weight * of(range / t) * range / (t * t)
         };
-        Tail {
-            species: row.species,
-            energy: integral(&|r| energy(&row.values, r).value * r * r),
-            slope: integral(&|r| energy(&row.values, r).slope * r.powi(3)),
-        }
+        (1..=steps).map(term).sum::<f64>() * h / 3.0
+    };
+    let integral = |of: &dyn Fn(f64) -> f64| {
+        let [coarse, fine] = [STEPS, 2 * STEPS].map(|steps| simpson(of, steps));
+        // Or the energy ends within few steps, and nothing is left of it.
+        let size = fine.abs().mul_add(1e-6, 1e-3 * of(range).abs() * range);
+        if (fine - coarse).abs() <= size { fine } else { f64::INFINITY }
+    };
+    let of = |row: &Row| Tail {
+        species: row.species,
+        energy: integral(&|r| energy(&row.values, r).value * r * r),
+        slope: integral(&|r| energy(&row.values, r).slope * r.powi(3)),
     };
     rows.iter().map(of).collect()
 }

@@ -1,7 +1,8 @@
 //! Screened charges.
 
-use super::pair_potential::{Energy, ONSET, PAIRS, RANGE, TRUNCATION, factor, law, rows};
+use super::pair_potential::{Energy, ONSET, PAIRS, RANGE, TRUNCATION, factor, law, rows, tails};
 use super::{Component, Law, SEE_NEAR, SKIN, over};
+use crate::component::Tail;
 use crate::settings::{Key, Kind, Settings, Value};
 
 /// The keys in a scene.
@@ -21,6 +22,9 @@ const COEFFICIENTS: &[Key] = &[
     Key::new("strength", Kind::Number, Value::Number(1.0), "A of the pair, in units of `strength`"),
     factor("screening", "κ of the pair, in units of `screening`"),
 ];
+
+/// The coefficients of the law.
+const NAMES: [&str; 2] = ["strength", "screening"];
 
 /// `yukawa`: U = A exp(−κ r) / r up to the range (Debye & Hückel, Phys. Z. 24, 185, 1923; Yukawa, Proc. Phys.-Math. Soc. Japan 17, 48,
 /// 1935).
@@ -42,9 +46,11 @@ fn energy(coefficients: &[f64], r: f64) -> Energy {
 }
 
 impl Component for Yukawa {
+    fn tails(&self) -> Vec<Tail> {
+        tails(&self.0, &rows(&self.0, &NAMES, None), energy)
+    }
     fn laws(&self) -> Vec<Law> {
-        let names = ["strength", "screening"];
         let file = ("yukawa", crate::shader!("interactions/yukawa.wgsl"));
-        vec![law(file, &self.0, over(&self.0, None), &names, &rows(&self.0, &names, None), energy)]
+        vec![law(file, &self.0, over(&self.0, None), &NAMES, &rows(&self.0, &NAMES, None), energy)]
     }
 }

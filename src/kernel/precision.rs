@@ -53,10 +53,14 @@ pub fn low_words(field: &str) -> Option<&'static str> {
     LOW_WORDS.iter().find(|(high, _)| high.name == field).map(|(_, low)| low.name)
 }
 
+/// The corner of a box that changes, which has a low word in any precision.
+const CORNER: (&str, &str) = ("box_corner", "box_corner_low");
+
 /// The field of which another holds the low words.
 #[must_use]
 pub fn high_words(field: &str) -> Option<&'static str> {
-    LOW_WORDS.iter().find(|(_, low)| low.name == field).map(|(high, _)| high.name)
+    let of_particles = LOW_WORDS.iter().map(|(high, low)| (high.name, low.name));
+    of_particles.chain([CORNER]).find(|(_, low)| *low == field).map(|(high, _)| high)
 }
 
 /// The low words of some numbers: what rounding to single precision takes from them. The fourth components have none.

@@ -45,7 +45,7 @@ pub const MEASURE: Measure = Measure {
         if bounds.dimensions == 2 && (start.z != 0.0 || span.z != 0.0) {
             return refuse("start", format!("`probe` is at z = {} in two dimensions, where all particles are at 0: set z to 0", start.z));
         }
-        let half = 0.5 * bounds.period().to_array().into_iter().filter(|period| *period > 0.0).fold(f64::INFINITY, f64::min);
+        let half = half_period(&bounds);
         if range > half {
             return refuse("range", format!("`probe` has range = {range}, more than half a period of the box, beyond which images repeat: set it to {half} at most"));
         }
@@ -57,6 +57,11 @@ pub const MEASURE: Measure = Measure {
 
 /// The maximum number of points: each is a row of every output.
 const MOST: u64 = 100_000;
+
+/// Half of the shortest period; infinite where there is none.
+fn half_period(bounds: &Bounds) -> f64 {
+    0.5 * bounds.period().to_array().into_iter().filter(|period| *period > 0.0).fold(f64::INFINITY, f64::min)
+}
 
 /// Points at which states are measured.
 #[derive(Debug)]
@@ -78,6 +83,13 @@ struct Sum {
 impl Series for Probe {
     fn take(&mut self, moment: &Moment<'_>) -> Result<Vec<Row>, Error> {
         let (state, bounds) = (moment.state, moment.bounds(&self.bounds));
+        let half = half_period(&bounds);
+        if self.range > half {
+            return Err(Error::Scene(format!(
+                "the measure `probe` has range = {}, and the box has shrunk so that half of its shortest period is {half}: choose a shorter range",
+                self.range
+            )));
+        }
         let active: Vec<usize> = (0..state.len()).filter(|i| state.is_active(*i)).collect();
         let places: Vec<DVec3> = active.iter().map(|i| state.position()[*i]).chain(self.points.iter().copied()).collect();
         let cells = Cells::new(&places, bounds, self.range)?;

@@ -29,6 +29,12 @@ pub const MEASURE: Measure = Measure {
         if tails.is_empty() {
             return refuse("needs a pair law that ends at its cut-off radius, as lennard_jones with truncation = \"cut\"");
         }
+        if let Some(tail) = tails.iter().find(|tail| !(tail.energy.is_finite() && tail.slope.is_finite())) {
+            let [a, b] = tail.species;
+            return refuse(&format!(
+                "has no finite sum over pairs of the species {a} and {b}, whose energy falls as slowly as 1 / r: give them a screening"
+            ));
+        }
         Ok(Box::new(Tails { bounds, tails }))
     },
 };

@@ -183,7 +183,8 @@ impl List {
         let mut from = origin.truncate();
         if self.grid.elastic {
             let (low, part) = (bounds.low.as_vec3(), bounds.period().x as f32 / origin.w as f32);
-            from = (low + part * (from.as_vec3() - low)).as_dvec3();
+            let with_box = (low + part * (from.as_vec3() - low)).as_dvec3();
+            from = DVec3::select(bounds.period().cmpgt(DVec3::ZERO), with_box, from);
             limit += 0.5 * (part - 1.0) * self.shape.reach() as f32;
             if limit <= 0.0 {
                 return true;

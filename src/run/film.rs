@@ -12,7 +12,7 @@ use super::pictures::Pictures;
 use super::progress::Progress;
 use super::stream::Stream;
 use crate::error::Error;
-use crate::kernel::{Backend, Columns, POSITION, VELOCITY};
+use crate::kernel::{Backend, Bounds, Columns, POSITION, VELOCITY};
 use crate::render::{self, Trail};
 use crate::scene::Scene;
 use crate::simulation::Simulation;
@@ -116,7 +116,8 @@ impl Film {
             self.kept.push(Kept { step, pushes: trail.pushes(), position, velocity });
             return Ok(());
         }
-        self.draw(simulation, to, trail.clone(), step, progress).await
+        let bounds = simulation.bounds().await?;
+        self.draw(simulation, (to, bounds), trail.clone(), step, progress).await
     }
     /// Draws the stored states. The simulation is at its end, and is left with one of them.
     pub(super) async fn develop<B: Backend>(
@@ -129,10 +130,12 @@ impl Film {
             let state = simulation.snapshot().await?;
             self.begin((state, to.0.trail.pushes()), to, false)?;
         }
+        // Trails pass through all times, and so are drawn in the box of the end.
+        let bounds = simulation.bounds().await?;
         for Kept { step, pushes, position, velocity } in std::mem::take(&mut self.kept) {
             simulation.write(POSITION, &position)?;
             simulation.write(VELOCITY, &velocity)?;
-            self.draw(simulation, to, to.0.trail.until(pushes), step, progress).await?;
+            self.draw(simulation, (to, bounds), to.0.trail.until(pushes), step, progress).await?;
         }
         Ok(())
     }
@@ -152,7 +155,7 @@ impl Film {
     async fn draw<B: Backend>(
         &mut self,
         simulation: &mut Simulation<B>,
-        to: (&Pictures, &Arc<Folder>),
+        (to, bounds): ((&Pictures, &Arc<Folder>), Bounds),
         trail: Trail,
         step: u64,
         progress: &mut dyn Progress,
@@ -165,7 +168,7 @@ impl Film {
         let Some(reel) = &mut self.reel else { return Ok(()) };
         reel.retrace(trail);
         let time = step as f64 * self.dt;
-        let scenery = to.0.scenery.at(time);
+        let scenery = to.0.scenery(&bounds, time);
         reel.place(scenery.solids);
         reel.contain(scenery.tanks);
         let image = simulation.shoot(reel).await?;

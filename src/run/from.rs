@@ -13,8 +13,16 @@ use crate::simulation::Setup;
 /// # Errors
 /// [`Error::Input`] when the file has other particles, lacks a required time, or is at the end of the run.
 pub fn go_on(setup: &mut Setup, scene: &Scene, path: &Path) -> Result<(), Error> {
-    let mut state = formats::read(path, &setup.columns()?)?;
+    let columns = setup.columns()?;
+    let mut state = formats::read(path, &columns)?;
     let refuse = |message: String| Err(Error::Input { file: path.to_owned(), message });
+    let corner = crate::component::barostat::CORNER.name;
+    if columns.get(corner).is_some() && state.get(corner).is_none() {
+        return refuse(
+            "does not hold the box, which a barostat has changed since the start: give the NPZ archive of a run, or a file with a box in its header"
+                .to_owned(),
+        );
+    }
     if (state.step, state.time) == (0, 0.0)
         && let Some(step) = numbered(path)
     {
@@ -64,7 +72,10 @@ pub fn go_on(setup: &mut Setup, scene: &Scene, path: &Path) -> Result<(), Error>
     }
     match setup.state.go_on_from(&state) {
         Err(Error::Scene(message)) => refuse(format!("cannot go on: {message}")),
-        other => other,
+        other => {
+            setup.bounds = setup.in_its_box()?.bounds;
+            other
+        }
     }
 }
 

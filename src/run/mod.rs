@@ -201,7 +201,7 @@ impl Run {
         let begun = course::begun(&scene, &setup.state);
         let properties = || setup.forces.iter().map(|force| force.properties());
         let standing = properties().filter_map(|of| of.pictured).collect();
-        let scenery = Scenery::of(&setup.state).within(&scene.bounds).beside(standing, &setup.state);
+        let scenery = Scenery::of(&setup.state).within(&setup.bounds).beside(standing, &setup.state);
         images::check(&scene.output)?;
         Picture::with(&scene.picture, &setup.state, &[], Trail::new(0), &scenery)?;
         let (count, stream) = (setup.state.len(), Stream::default());
@@ -217,7 +217,7 @@ impl Run {
             goes_on: None,
             schedule: Schedule::new(scene.checkpoint.every, setup.state.step, setup.state.time),
             measures,
-            pictures: Pictures::new(&scene, count, scenery, stream.clone()),
+            pictures: Pictures::new(&scene, count, (scenery, setup.bounds), stream.clone()),
             film: Film::of(&scene, begun, options.fps, &stream),
             looks: Looks::new(scene.steps, scene.adaptive_step.is_some()),
             writers: Vec::new(),
@@ -225,7 +225,7 @@ impl Run {
                 &scene.output.formats,
                 formats::Options {
                     precision: options.precision,
-                    bounds: Some(scene.bounds).filter(has_sides),
+                    bounds: Some(setup.bounds).filter(has_sides),
                     compress: scene.output.compress,
                     part: formats::Part { number: 0, of: scene.output.files },
                 },

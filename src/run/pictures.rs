@@ -8,6 +8,7 @@ use super::stream::Stream;
 use super::table::Lengths;
 use super::writer::Writer;
 use crate::error::Error;
+use crate::kernel::Bounds;
 use crate::measure::Moment;
 use crate::render::{Color, Image, Picture, Scenery, Trail, framed, group_color, pack};
 use crate::scene::{Group, Scene};
@@ -31,20 +32,21 @@ pub struct Pictures {
     stream: Stream,
     /// The trails, for runs with few particles.
     pub(super) trail: Trail,
-    /// The objects that pictures show in addition to particles.
-    pub(super) scenery: Scenery,
+    /// The objects that pictures show in addition to particles, and the box at the start.
+    scenery: Scenery,
+    bounds: Bounds,
     last: Option<Arc<Image>>,
 }
 
 impl Pictures {
     /// The pictures of a scene with `count` particles.
-    pub(super) fn new(scene: &Scene, count: usize, scenery: Scenery, stream: Stream) -> Self {
+    pub(super) fn new(scene: &Scene, count: usize, (scenery, bounds): (Scenery, Bounds), stream: Stream) -> Self {
         // A trail is needed only for pictures.
         let drawn = scene.output.pictures || scene.output.frames > 0;
         Self {
             name: scene.name.clone(),
             wanted: scene.output.pictures,
-            picture: framed(&scene.picture, &scene.bounds),
+            picture: framed(&scene.picture, &bounds),
             groups: scene.groups.clone(),
             digits: scene.steps.to_string().len(),
             stride: (scene.steps / TRAIL).max(1),
@@ -52,6 +54,7 @@ impl Pictures {
             stream,
             trail: Trail::new(if drawn { count } else { 0 }),
             scenery,
+            bounds,
             last: None,
         }
     }
@@ -73,6 +76,10 @@ impl Pictures {
     pub(super) fn points_at(&self, steps: u64) -> bool {
         self.trail.wanted() && steps.is_multiple_of(self.stride)
     }
+    /// The objects beside the particles at a time, in a box that may have changed since the start.
+    pub(super) fn scenery(&self, bounds: &Bounds, time: f64) -> Scenery {
+        if *bounds == self.bounds { self.scenery.at(time) } else { self.scenery.clone().within(bounds).at(time) }
+    }
     /// The picture of a state, to be drawn, with this trail.
     pub(super) fn of(&self, snapshot: &State, trail: Trail) -> Result<Picture, Error> {
         let of = |id: usize| {
@@ -80,7 +87,8 @@ impl Pictures {
             u32::try_from(found.unwrap_or(0)).unwrap_or(0)
         };
         let groups: Vec<u32> = (0..snapshot.len()).map(of).collect();
-        let mut picture = Picture::with(&self.picture, snapshot, &groups, trail, &self.scenery.at(snapshot.time))?;
+        let scenery = self.scenery(&snapshot.boxed(&self.bounds), snapshot.time);
+        let mut picture = Picture::with(&self.picture, snapshot, &groups, trail, &scenery)?;
         // Colours of the scene take precedence over the palette, unless another colouring was chosen.
         if !["speed", "heading"].contains(&self.picture.text("color")) && self.groups.iter().any(|g| g.color.is_some())
         {

@@ -4,6 +4,8 @@ use std::collections::BTreeSet;
 
 use glam::DVec3;
 
+use super::barostat::USUAL;
+use super::elastic::Fit;
 use super::grow::Room;
 use super::{Plans, Setup, Simulation, pair_history};
 use crate::error::Error;
@@ -132,10 +134,6 @@ impl Repeat {
     pub fn take(&mut self) -> Option<Origin> {
         self.from.take()
     }
-    /// Gives up the copy.
-    pub fn forget(&mut self) {
-        self.from = None;
-    }
 }
 
 impl<B: Backend> Simulation<B> {
@@ -169,24 +167,41 @@ impl<B: Backend> Simulation<B> {
     /// [`Error::ListFull`] where the device has no room for more, or the steps cannot be repeated; or errors of reading and compiling.
     pub(super) async fn settle(&mut self) -> Result<bool, Error> {
         let mut changed = false;
-        if self.problem.elastic.is_some() && self.list.is_none() {
-            changed = Box::pin(self.fit_cells()).await?;
+        if self.list.is_none()
+            && let Fit::Refused(why) = Box::pin(self.fit()).await?
+        {
+            return Err(Error::Scene(why));
         }
         while let Some(shape) = self.list.filter(|_| !self.repeat.sufficed) {
-            if self.problem.elastic.is_some() && Box::pin(self.fit_cells()).await? {
+            let seen = self.seen().await?;
+            let more = self.more(shape, seen.longest);
+            // These are rare, and boxed because every read awaits them. What a repetition heals comes before what nothing heals.
+            if let (Some(row), Some(more)) = (seen.overflown, more) {
+                Box::pin(self.again(shape, row, seen.longest, more)).await?;
                 changed = true;
                 continue;
             }
-            let seen = self.seen().await?;
-            let more = self.more(shape, seen.longest);
+            let fit = Box::pin(self.fit()).await?;
+            if let Fit::Not(part) = fit {
+                Box::pin(self.again_in_new_cells(part)).await?;
+                changed = true;
+                continue;
+            }
+            if let Some(row) = seen.overflown {
+                return Err(self.full(shape, row, seen.longest));
+            }
             let ample = f64::from(seen.longest) <= AMPLE * f64::from(shape.capacity);
-            match (seen.overflown, more) {
-                // This is rare, and boxed because every read awaits it. A list that still suffices ends no run: where the device has no
-                // room for more, or something else is wrong, it is left unchanged.
-                (None, Some(more)) if !ample && self.is_quiet().await? => {
+            let room = match fit {
+                Fit::Refused(why) => return Err(Error::Scene(why)),
+                Fit::Soon => Some(Room::Cells(USUAL)),
+                _ => more.filter(|_| !ample).map(Room::Neighbors),
+            };
+            // What still suffices ends no run: where the device has no room for more, or something else is wrong, it is left unchanged.
+            match room {
+                Some(room) if self.is_quiet().await? => {
                     self.repeat.from = None;
-                    match Box::pin(self.grow(Room::Neighbors(more))).await {
-                        Ok(()) => {}
+                    match Box::pin(self.grow(room)).await {
+                        Ok(()) => changed = true,
                         Err(Error::Limit(_) | Error::OutOfMemory(_)) => {
                             self.repeat.sufficed = true;
                             return Ok(changed);
@@ -194,16 +209,17 @@ impl<B: Backend> Simulation<B> {
                         Err(why) => return Err(why),
                     }
                 }
-                (None, _) => {
+                _ => {
                     (self.repeat.from, self.repeat.sufficed) = (None, true);
                     return Ok(changed);
                 }
-                (Some(row), Some(more)) => Box::pin(self.again(shape, row, seen.longest, more)).await?,
-                (Some(row), None) => return Err(self.full(shape, row, seen.longest)),
             }
-            changed = true;
         }
         Ok(changed)
+    }
+    /// Whether the list had room for all neighbours.
+    pub(super) async fn list_sufficed(&mut self) -> Result<bool, Error> {
+        Ok(self.list.is_none() || self.seen().await?.overflown.is_none())
     }
     /// Restores the copy, makes room for `more` neighbours, and repeats the steps since.
     async fn again(&mut self, shape: ListShape, row: u32, longest: u32, more: u32) -> Result<(), Error> {

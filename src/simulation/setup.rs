@@ -77,6 +77,9 @@ impl Setup {
     /// # Errors
     /// When the setup is invalid, or a shader does not compile.
     pub fn plans(&self, machine: Machine) -> Result<Plans, Error> {
+        if let Some(stretched) = self.stretched()? {
+            return stretched.plans(machine);
+        }
         if let Some(padded) = self.padded() {
             return padded.plans(machine);
         }
@@ -176,6 +179,9 @@ impl Setup {
     /// # Errors
     /// When the setup is invalid.
     pub fn problem(&self, machine: Machine) -> Result<Problem, Error> {
+        if let Some(stretched) = self.stretched()? {
+            return stretched.problem(machine);
+        }
         if let Some(padded) = self.padded() {
             return padded.problem(machine);
         }
@@ -249,7 +255,8 @@ impl Setup {
         if problem.has_inactive && walls.iter().all(|wall| *wall) {
             return Ok(None);
         }
-        let still = Still { position: &position, mass: &mass, walls: &walls, bounds: &self.bounds };
+        let bounds = self.state.boxed(&self.bounds);
+        let still = Still { position: &position, mass: &mass, walls: &walls, bounds: &bounds };
         let mut start = Start::of(&fluid, &still)?;
         let speeds = velocity.iter().zip(&walls).filter(|(_, wall)| !**wall).map(|(v, _)| v.length());
         start.speed = speeds.fold(0.0, f64::max);
@@ -370,6 +377,9 @@ impl Setup {
     /// [`Error::Scene`] when there are none or too many, when dt is not a positive number, when a particle has a number
     /// that is not finite, or a negative mass, when the box is invalid, or when particles are outside it.
     pub fn check(&self) -> Result<u32, Error> {
+        if let Some(stretched) = self.stretched()? {
+            return stretched.check();
+        }
         let state = &self.state;
         let State { links, held, motions, births, drains, .. } = state;
         let (position, velocity, mass) = (state.position(), state.velocity(), state.mass());

@@ -1,14 +1,11 @@
 //! The virial of all forces of pairs, computed on request.
 
 use super::{Setup, Simulation};
-use crate::component::pressure;
+use crate::component::pressure::{self, ROUNDING};
 use crate::error::Error;
 use crate::forces::Problem;
 use crate::kernel::{Array, Backend, Machine, Plan};
 use crate::visit::VIRIAL;
-
-/// The part of the sizes of the forces on a particle by which they may fail to add up: some hundred roundings of single precision.
-const ROUNDING: f32 = 1e-4;
 
 impl Setup {
     /// Whether its forces have a virial: see [`Simulation::virial`].
@@ -32,10 +29,11 @@ impl<B: Backend> Simulation<B> {
     /// [`Error::Scene`] where a force is none of pairs in range, or those of pairs do not add up to the force on a particle; and those of
     /// [`Simulation::snapshot`].
     pub async fn virial(&mut self) -> Result<[f64; 6], Error> {
-        let plan = self.setup.virial(&self.problem)?;
-        let program = self.backend.compile(&plan)?;
+        // A list that grows and cells that are made anew replace the problem and the backend.
         self.settle().await?;
         let (values, alarm) = loop {
+            let plan = self.setup.virial(&self.problem)?;
+            let program = self.backend.compile(&plan)?;
             self.begin_measurement().await?;
             self.backend.run(&program, 1)?;
             let like = Array::Vec4(Vec::new());
@@ -54,7 +52,7 @@ impl<B: Backend> Simulation<B> {
                     self.named(row)
                 )));
             }
-            let adds_up = pair[0].w <= f64::from(ROUNDING) * pair[1].w;
+            let adds_up = pair[0].w <= ROUNDING * pair[1].w;
             if !adds_up {
                 return Err(Error::Scene(format!(
                     "the forces of pairs on particle {} do not add up to its force, so that they have no virial: leave out what measures the \

@@ -69,7 +69,7 @@ impl Component for Berendsen {
         vec![heat()]
     }
     fn properties(&self) -> Properties {
-        Properties { constrains: true, thermostat: true, ..Properties::default() }
+        Properties { constrains: true, thermostat: true, temperature: Some(self.temperature), ..Properties::default() }
     }
     fn stage(&self, stage: Stage, plan: &mut Plan, problem: &Problem) -> Result<(), Error> {
         if stage == Stage::EndOfStep {

@@ -29,14 +29,14 @@ impl Component for BerendsenPressure {
     }
     fn properties(&self) -> Properties {
         let why = "berendsen_pressure changes the box after steps of one length";
-        Properties { fixed_step: Some(why), constrains: true, barostat: Some(self.0.every), ..Properties::default() }
+        Properties { fixed_step: Some(why), constrains: true, barostat: Some(self.0.pressed()), ..Properties::default() }
     }
     fn stage(&self, stage: Stage, plan: &mut Plan, problem: &Problem) -> Result<(), Error> {
         match stage {
             Stage::AfterDrift { .. } => self.0.change(problem)?.into_iter().for_each(|kernel| plan.add(kernel)),
             Stage::Pressure => {
                 let file = crate::shader!("updaters/berendsen_pressure.wgsl");
-                plan.add(self.0.decide(&[file], &[], |_| 0.0, problem)?);
+                plan.add(self.0.decide(&[file], &[], |_| 0.0)?);
             }
             _ => {}
         }

@@ -41,8 +41,8 @@ impl Component for CellRescaling {
     }
     fn properties(&self) -> Properties {
         let why = "cell_rescaling changes the box after steps of one length";
-        let barostat = Some(self.barostat.every);
-        Properties { fixed_step: Some(why), constrains: true, barostat, ..Properties::default() }
+        let (barostat, temperature) = (Some(self.barostat.pressed()), Some(self.temperature));
+        Properties { fixed_step: Some(why), constrains: true, temperature, barostat, ..Properties::default() }
     }
     fn stage(&self, stage: Stage, plan: &mut Plan, problem: &Problem) -> Result<(), Error> {
         match stage {
@@ -57,7 +57,7 @@ impl Component for CellRescaling {
                 let [low, high] = self.seed;
                 let more = [("TEMPERATURE", self.temperature), ("SEED_LOW", low.into()), ("SEED_HIGH", high.into())];
                 let noise = move |step: u32| normals(pcg4d([0, step, low, high]), 2).x;
-                plan.add(self.barostat.decide(&files, &more, noise, problem)?);
+                plan.add(self.barostat.decide(&files, &more, noise)?);
             }
             _ => {}
         }

@@ -122,7 +122,9 @@ impl Place<'_> {
         let count = FEW;
         let mut random = Random::new(5);
         let side = self.bounds.high - self.bounds.low;
-        let place = |x: DVec3| (self.bounds.low + side * (0.5 + 0.5 * x)).as_vec3().as_dvec3();
+        let flat = self.bounds.dimensions == 2;
+        let plane = |x: DVec3| if flat { x.with_z(0.0) } else { x };
+        let place = |x: DVec3| plane((self.bounds.low + side * (0.5 + 0.5 * x)).as_vec3().as_dvec3());
         let places: Vec<DVec3> = (0..count).map(|_| place(random.vector())).collect();
         let shape = ListShape { range: RANGE, skin: SKIN, words: self.slots, capacity: self.capacity };
         let problem = Problem::new(count as u32, self.machine).at(&places, self.bounds);
@@ -155,18 +157,20 @@ impl Place<'_> {
             simulation.backend().set_world(next).expect("a world");
             // What lies still in a box that changes moves with it.
             if self.stretch.is_some() {
-                now.iter_mut().for_each(|x| *x = (low + part * (x.truncate().as_dvec3() - low)).as_vec3().extend(x.w));
+                let with_box = |x: DVec3| plane(low + part * (x - low));
+                now.iter_mut().for_each(|x| *x = with_box(x.truncate().as_dvec3()).as_vec3().extend(x.w));
             }
             let limit = (0.5 * (SKIN + (part - 1.0) * (RANGE + SKIN))).max(0.0) as f32;
             let origin = now[count - 1];
             for (i, x) in now.iter_mut().enumerate() {
-                let way = (random.vector() * 0.56).as_vec3() * limit;
+                let way = plane(random.vector() * 0.56).as_vec3() * limit;
                 // Along one axis each, by all but a hundredth of what is borne.
-                let axis = [glam::Vec3::X, glam::Vec3::NEG_Y, glam::Vec3::Z][i % 3];
+                let axis = [glam::Vec3::X, glam::Vec3::NEG_Y, glam::Vec3::Z][i % if flat { 2 } else { 3 }];
                 *x += (if i % 50 < 3 { 0.99 * limit * axis } else { way }).extend(0.0);
             }
             let last = now.last_mut().expect("some");
             match since {
+                Since::Much if flat => *last = origin + limit * Vec4::new(0.8, 0.8, 0.0, 0.0),
                 Since::Much => *last = origin + limit * Vec4::new(0.05, 0.8, 0.8, 0.0),
                 Since::Spawned => life[count - 2] = 1,
                 Since::Removed => life[count - 1] = 2,
@@ -259,6 +263,12 @@ pub fn all(shared: &Shared, stages: &mut Vec<Stage>) {
         stages.extend([Since::Little, Since::Much].map(|since| stretched(part, room).stage(since)));
     }
     stages.push(stretched(0.6, 448).stage(Since::Little));
+    // A plane stays where it is, and its box may be elsewhere.
+    let low = DVec3::new(0.125, 3.0, 2.5);
+    let plane = Bounds::new(low, low + DVec3::new(4.0, 5.0, 0.0), Side::Periodic);
+    for since in [Since::Little, Since::Much] {
+        stages.push(Place { stretch: Some(1.1), ..place(LANES, plane, false, ROOM) }.stage(since));
+    }
     if subgroups_of_eight(shared) {
         stages.push(place(EIGHT, periodic, false, ROOM).stage(Since::Never));
         stages.push(place(EIGHT, periodic, false, TIGHT).stage(Since::Never));

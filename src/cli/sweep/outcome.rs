@@ -54,8 +54,9 @@ impl Outcome {
         let (steps, took) = made.as_ref().map_or((0, Duration::ZERO), |(_, end)| (end.steps, end.stepping));
         let result = made.and_then(|(run, end)| {
             let ends = [run.energies().first(), run.energies().last()].map(|row| row.copied().unwrap_or_default());
-            let (bounds, change) = (run.scene().bounds, run.looks.change);
+            let (given, change) = (run.scene().bounds, run.looks.change);
             let state = Arc::unwrap_or_clone(run.last.filter(|_| !end.stopped).ok_or(Failure::Stopped)?);
+            let bounds = state.boxed(&given);
             Ok(Left { ends, change, state, bounds })
         });
         Self { result, steps, took }

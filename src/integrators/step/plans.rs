@@ -49,8 +49,8 @@ impl<'a> Step<'a> {
     }
     /// Adds the measurement of the pressure, and what follows from it, where a component needs it.
     fn pressure(&mut self) {
-        if let Some(every) = self.forces.iter().find_map(|force| force.properties().barostat) {
-            self.add(pressure::kernel(self.forces, &self.problem, every));
+        if let Some(pressed) = self.forces.iter().find_map(|force| force.properties().barostat) {
+            self.add(pressure::kernel(self.forces, &self.problem, pressed.every));
             self.each(Stage::Pressure);
         }
     }

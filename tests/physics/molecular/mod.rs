@@ -9,6 +9,7 @@
 
 mod barostats;
 mod baths;
+mod boxes;
 mod lammps;
 mod laws;
 mod minimum;
