@@ -16,7 +16,7 @@ pub fn remark(setup: &Setup) -> Option<Remark> {
         let text = format!(
             "{barostat} has the volumes of the temperature {wanted} where a thermostat keeps it, and there is none: the temperature drifts"
         );
-        let advice = format!("add an [[update]] of kind = \"csvr\" with temperature = {wanted}");
+        let advice = format!("add a [[force]] of kind = \"csvr\" with temperature = {wanted}");
         return Some(Remark::warning("no-thermostat", text).with("temperature", wanted).advice(advice));
     };
     let text = format!(

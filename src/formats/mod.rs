@@ -165,12 +165,10 @@ pub fn read(path: &Path, columns: &Columns) -> Result<State, Error> {
     let Some((format, read)) = of(path)?.and_then(|format| Some((format, format.read?))) else {
         return Err(input(path, "is not of a known format"));
     };
-    // A box that a barostat has changed is read whether there is a barostat or not; files that hold no such columns have it in their headers.
+    let mut state = read(path, columns)?;
+    // Files that hold no columns of a system have the box that a barostat has changed in their headers.
     let corner = crate::component::barostat::corner();
-    let known = columns.get(&corner.name);
-    let unknown = [&corner].into_iter().filter(|_| known.is_none());
-    let mut state = read(path, &Columns::with(columns.iter().chain(unknown).cloned())?)?;
-    if known == Some(&corner)
+    if columns.get(&corner.name) == Some(&corner)
         && state.get(&corner.name).is_none()
         && let Some(bounds) = (format.contents)(path)?.bounds
     {

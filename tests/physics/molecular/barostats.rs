@@ -61,7 +61,7 @@ fn volumes(name: &'static str, count: u32, parts: u32, seed: f64) -> Vec<f64> {
 
 /// At a given pressure the volume of an ideal gas of N atoms has the gamma distribution of shape N + 1. A step of a part of the relaxation
 /// time widens it by half of that part. Three seeds, as for thermostats. With Berendsen's barostat volumes fluctuate less, as it says. Of eight
-/// atoms N and N + 1 are told apart: the mean 8 is nearly six standard errors from 9.
+/// atoms N and N + 1 differ: the mean 8 is nearly six standard errors from 9.
 #[test]
 fn volumes_of_an_ideal_gas_are_those_of_its_pressure_or_said_not_to_be() {
     for (count, parts) in [(32, 40), (8, 200)] {
@@ -358,8 +358,11 @@ fn what_a_barostat_does_not_serve_is_refused() {
     refused(with(force("boids", &[("over", word("list"))])), "not equal and opposite");
     refused(Setup { forces: vec![cut(1.5, "cut", "near"), pushed()], ..good() }, "choose over = \"list\"");
     refused(with(force("boids", &[("over", word("nearest"))])), "choose over = \"list\"");
-    refused(with(force("minimize", &[("tolerance", Number(0.1))])), "does not serve `minimize`");
-    refused(with(force("gravity", &[("over", word("tree"))])), "trees");
+    refused(
+        with(force("minimize", &[("tolerance", Number(0.1)), ("largest_move", Number(0.1))])),
+        "does not serve `minimize`",
+    );
+    refused(with(force("gravity", &[("over", word("tree")), ("images", word("ewald"))])), "forces of pairs in range");
     let method = motes::integrators::Precise { integrator: integrator("leapfrog"), precision: Precision::Compensated };
     refused(Setup { integrator: Box::new(method), ..good() }, "leave out precision");
     let mut tied = good();
