@@ -143,7 +143,7 @@ pub async fn compare_while(
         let before: Vec<_> = fields.iter().map(|(name, ..)| host.get(name)).collect();
         reference(&host)?;
         if kernel.writes().iter().any(|name| name == "world") {
-            let (got, periods) = (gpu.world().await?, gpu.periods().await?.map(|x| x.as_dvec3()));
+            let (got, periods) = (gpu.world().await?, gpu.periods().await?.map(glam::Vec3::as_dvec3));
             verdicts.push(worlds(&kernel.name, world, (got, periods), host.world()));
         }
         for name in &scratch {
