@@ -1,2 +1,2 @@
 // All pairs.
-fn meets(me: Particle, you: Particle, r: vec3f, sum: ptr<function, Sum>) { gather(me, you, r, sum); }
+fn meets(me: Particle, you: Particle, r: vec3f, sum: ptr<function, Sum>) { gathered(me, you, r, sum); }

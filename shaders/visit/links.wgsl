@@ -13,7 +13,7 @@ fn links(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: v
     for (var k = link_start[i]; k < end; k += 1u) {
         let one = link[k];
         let you = particle(one.partner);
-        gather(me, you, shortest(you.position - me.position), one, &sum);
+        gather(me, you, refined(shortest(you.position - me.position), me, you), one, &sum);
     }
     // Each of the two holds half of the energy.
     conclude(me, 0.5, sum);

@@ -28,7 +28,7 @@ fn links_alike(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) gro
         if k >= start.w { one = d; }
         one.partner = partner[k];
         let you = particle(one.partner);
-        gather(me, you, shortest(you.position - me.position), one, &sum);
+        gather(me, you, refined(shortest(you.position - me.position), me, you), one, &sum);
     }
     // Each of the two holds half of the energy.
     conclude(me, 0.5, sum);

@@ -28,13 +28,13 @@ fn deliver(layer: u32, i: u32, sum: Sum) {
 
 // Each of a pair holds half of its potential energy.
 fn add(i: u32, sum: Sum) {
-    conclude(particle(i), 0.5, sum);
+    conclude(particle(i), 0.5, settled(sum));
 }
 
 // No particle interacts with itself. Both ways are computed and one is kept: a branch would cost more.
 fn meet_other(me: Particle, you: Particle, sum: ptr<function, Sum>) {
     var met = *sum;
-    meets(me, you, shortest(you.position - me.position), &met);
+    meets(me, you, refined(shortest(you.position - me.position), me, you), &met);
     if you.index != me.index { *sum = met; }
 }
 
@@ -50,8 +50,8 @@ fn meet_others(you: Particle, a: Particle, b: Particle, c: Particle, d: Particle
 // You and four targets that are known to be others.
 fn meet(you: Particle, a: Particle, b: Particle, c: Particle, d: Particle,
         sum_a: ptr<function, Sum>, sum_b: ptr<function, Sum>, sum_c: ptr<function, Sum>, sum_d: ptr<function, Sum>) {
-    meets(a, you, shortest(you.position - a.position), sum_a);
-    meets(b, you, shortest(you.position - b.position), sum_b);
-    meets(c, you, shortest(you.position - c.position), sum_c);
-    meets(d, you, shortest(you.position - d.position), sum_d);
+    meets(a, you, refined(shortest(you.position - a.position), a, you), sum_a);
+    meets(b, you, refined(shortest(you.position - b.position), b, you), sum_b);
+    meets(c, you, refined(shortest(you.position - c.position), c, you), sum_c);
+    meets(d, you, refined(shortest(you.position - d.position), d, you), sum_d);
 }

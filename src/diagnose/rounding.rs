@@ -21,14 +21,16 @@ fn last_place(x: f64) -> f64 {
 pub fn remarks(setup: &Setup) -> Vec<Remark> {
     let precision = setup.integrator.precision();
     let motions = if precision.is_double() { None } else { motions(setup) };
-    motions.into_iter().chain(softenings(setup)).collect()
+    let softenings = if precision == Precision::DoubleSingle { Vec::new() } else { softenings(setup) };
+    motions.into_iter().chain(softenings).collect()
 }
 
 /// The way out by another precision, where the setup can run in it.
-fn in_two_words(setup: &Setup) -> &'static str {
-    let integrator = Precise { integrator: setup.integrator.clone(), precision: Precision::Compensated };
+fn in_two_words(setup: &Setup, precision: Precision) -> String {
+    let integrator = Precise { integrator: setup.integrator.clone(), precision };
     let two = Setup { integrator: Box::new(integrator), ..setup.clone() };
-    if two.plans(Machine::HOST).is_ok() { "set precision = \"compensated\" in [simulation], " } else { "" }
+    let serves = two.plans(Machine::HOST).is_ok();
+    if serves { format!("set precision = \"{}\" in [simulation], ", precision.name()) } else { String::new() }
 }
 
 /// Particles that move by less than the last place of their coordinates in a step.
@@ -67,7 +69,7 @@ fn motions(setup: &Setup) -> Option<Remark> {
             .with("better_dt", better)
             .advice(format!(
                 "{}move the origin closer, choose a larger dt (above {better:.1e}), or use --backend cpu",
-                in_two_words(setup)
+                in_two_words(setup, Precision::Compensated)
             )),
     )
 }
@@ -93,7 +95,10 @@ fn softenings(setup: &Setup) -> Vec<Remark> {
                 .with("softening", softening)
                 .with("last_place", place)
                 .with("coordinate", far)
-                .advice("move the origin closer, or use --backend cpu")
+                .advice(format!(
+                    "{}move the origin closer, or use --backend cpu",
+                    in_two_words(setup, Precision::DoubleSingle)
+                ))
         })
     };
     setup.forces.iter().flat_map(|force| force.laws()).filter_map(remark).collect()

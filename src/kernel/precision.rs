@@ -2,7 +2,7 @@
 
 use glam::{DVec4, Vec4};
 
-use super::{Array, Field, POSITION, VELOCITY};
+use super::{Array, Field, POSITION, Source, VELOCITY};
 
 /// The precision in which positions and velocities are kept.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -12,13 +12,15 @@ pub enum Precision {
     Single,
     /// Two numbers, 48 bits: sums are compensated, and forces are those of the high words.
     Compensated,
+    /// The same, and forces are those of both words: the difference of two positions is formed from all four before it is rounded.
+    DoubleSingle,
 }
 
 impl Precision {
     /// All of them.
-    pub const ALL: [Self; 2] = [Self::Single, Self::Compensated];
+    pub const ALL: [Self; 3] = [Self::Single, Self::Compensated, Self::DoubleSingle];
     /// Their names in scenes.
-    pub const NAMES: [&str; 2] = ["single", "compensated"];
+    pub const NAMES: [&str; 3] = ["single", "compensated", "double_single"];
 
     /// Its name in scenes.
     #[must_use]
@@ -26,12 +28,20 @@ impl Precision {
         match self {
             Self::Single => "single",
             Self::Compensated => "compensated",
+            Self::DoubleSingle => "double_single",
         }
     }
     /// The precision of a name in scenes.
     #[must_use]
     pub fn named(name: &str) -> Option<Self> {
         Self::ALL.into_iter().find(|precision| precision.name() == name)
+    }
+    /// The file by which laws of pairs refine the difference of two positions.
+    pub(crate) fn differences(self) -> Source {
+        match self {
+            Self::Single | Self::Compensated => crate::shader!("visit/high_words.wgsl"),
+            Self::DoubleSingle => crate::shader!("visit/two_words.wgsl"),
+        }
     }
     /// Whether positions and velocities have low words.
     #[must_use]

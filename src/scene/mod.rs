@@ -160,7 +160,7 @@ impl Scene {
         let integrator = (self.integrator.build)(&self.integrator_settings);
         match self.precision {
             Precision::Single => integrator,
-            Precision::Compensated => Box::new(integrators::Precise { integrator, precision: self.precision }),
+            precision => Box::new(integrators::Precise { integrator, precision }),
         }
     }
     /// The setup of a simulation. It takes the particles and forces; the scene is left without them.

@@ -42,7 +42,7 @@ pub(super) const KEYS: &[Key] = &[
         "precision",
         Kind::Choice(&Precision::NAMES),
         Value::Text(std::borrow::Cow::Borrowed("single")),
-        "how positions and velocities are kept: one number of single precision, or the sum of two (\"compensated\")",
+        "how positions and velocities are kept: one number of single precision, or the sum of two (\"compensated\"), from which differences of positions are formed too (\"double_single\")",
     ),
 ];
 /// The keys of adaptive steps only.

@@ -13,6 +13,9 @@ use crate::primitives::{Items, Operation, radix_sort, rows};
 /// Temporary fields of the construction, shared by all trees. First the corners of the bounding box.
 pub(super) const LEAST: Field<glam::Vec4> = Field::new("tree_least");
 pub(super) const GREATEST: Field<glam::Vec4> = Field::new("tree_greatest");
+/// The lowest corner of all positions, and their places from there, where positions have two words.
+pub(super) const ORIGIN: Field<glam::Vec4> = Field::new("tree_origin");
+pub(super) const PLACE: Field<glam::Vec4> = Field::new("tree_place");
 /// Its lowest corner, and cells per length.
 pub(super) const CUBE: Field<glam::Vec4> = Field::new("tree_cube");
 /// The key word of the next sort, in the present order; and the upper words by id.
@@ -35,21 +38,28 @@ impl Tree {
     /// When a shader does not compile, or there are more particles than a sort takes.
     pub fn kernels(&self, problem: &Problem) -> Result<Vec<Kernel>, Error> {
         let (machine, count) = (&problem.machine, self.count);
-        let position = Name::from(POSITION.name);
-        let corner =
-            |operation, into: &'static str| rows(operation, Items::Vec4, &position, &into.into(), count, machine);
+        let corner = |of: Field<glam::Vec4>, operation, into: Field<glam::Vec4>| {
+            rows(operation, Items::Vec4, &of.name.into(), &into.name.into(), count, machine)
+        };
+        let places = self.places();
         let sort = |bits| radix_sort(&KEY.name.into(), &self.field(TREE_ID).1, count, bits, machine);
-        let mut kernels = vec![
-            corner(Operation::Min, LEAST.name)?,
-            corner(Operation::Max, GREATEST.name)?,
+        let mut kernels = Vec::new();
+        if self.two_words {
+            kernels.push(corner(POSITION, Operation::Min, ORIGIN)?);
+            let pass = self.each(&[crate::shader!("tree/place.wgsl")], count)?;
+            kernels.push(self.kernel("places", pass, reference::places));
+        }
+        kernels.extend([
+            corner(places, Operation::Min, LEAST)?,
+            corner(places, Operation::Max, GREATEST)?,
             self.kernel("cube", self.cube()?, reference::cube),
-            self.kernel("keys", self.each(&[crate::shader!("tree/key.wgsl"), HILBERT], count)?, reference::keys),
+            self.kernel("keys", self.placed(&[crate::shader!("tree/key.wgsl"), HILBERT])?, reference::keys),
             sort(curve::LOWER)?,
             self.kernel("upper words", self.each(&[crate::shader!("tree/upper.wgsl")], count)?, reference::upper),
             sort(curve::UPPER)?,
-            self.kernel("carry", self.each(&[crate::shader!("tree/carry.wgsl")], count)?, reference::carry),
+            self.kernel("carry", self.placed(&[crate::shader!("tree/carry.wgsl")])?, reference::carry),
             self.levels()?,
-        ];
+        ]);
         if let Opening::Relative { alpha, g, .. } = self.opening {
             let mut pass = self.each(&[LIVE, crate::shader!("tree/demand.wgsl")], self.groups())?;
             let above = self.height().saturating_sub(PULLS);
@@ -83,7 +93,7 @@ impl Tree {
 
     fn kernel(&self, name: &str, pass: Pass, reference: Rule) -> Kernel {
         let tree = self.clone();
-        let corners = [LEAST.name, GREATEST.name, CUBE.name].map(|name| (name.into(), 1));
+        let corners = [LEAST.name, GREATEST.name, CUBE.name, ORIGIN.name].map(|name| (name.into(), 1));
         Kernel {
             name: format!("{name} {}", self.name()),
             passes: vec![pass],
@@ -98,6 +108,13 @@ impl Tree {
         let mut all = vec![crate::shader!("world.wgsl"), crate::shader!("fields.wgsl")];
         all.extend_from_slice(files);
         Ok(Pass::new(Shader::join(&all)?, threads).on(&self.fields()))
+    }
+
+    /// A pass over all particles that finds places under the name of positions.
+    fn placed(&self, files: &[Source]) -> Result<Pass, Error> {
+        let mut pass = self.each(files, self.count)?;
+        pass.fields.push((POSITION.name, self.places().name.into()));
+        Ok(pass)
     }
 
     fn cube(&self) -> Result<Pass, Error> {

@@ -17,7 +17,7 @@ pub use opening::Opening;
 
 use std::ops::Range;
 
-use crate::kernel::{Name, Problem};
+use crate::kernel::{Field, Name, POSITION, Precision, Problem};
 
 /// Particles of a leaf.
 pub const LEAF: u32 = 4;
@@ -35,13 +35,20 @@ pub struct Tree {
     pub count: u32,
     /// The number of rows in use.
     pub used: u32,
+    /// Whether its bodies have places from the lowest corner of all, by both words of their positions, and not positions of one word.
+    pub two_words: bool,
 }
 
 impl Tree {
     /// A tree over all particles of a problem.
     #[must_use]
     pub fn new(opening: Opening, core: f64, problem: &Problem) -> Self {
-        Self { opening, core, count: problem.capacity, used: problem.capacity }
+        let two_words = problem.precision == Precision::DoubleSingle;
+        Self { opening, core, count: problem.capacity, used: problem.capacity, two_words }
+    }
+    /// The field with the places of its bodies, by id.
+    fn places(&self) -> Field<glam::Vec4> {
+        if self.two_words { build::PLACE } else { POSITION }
     }
     /// The same over the rows in use.
     #[must_use]

@@ -2,13 +2,13 @@
 
 use glam::{DMat3, DVec3, DVec4, Vec4};
 
-use super::build::{CUBE, GREATEST, KEY, LEAST, PART, PULLS, UPPER};
+use super::build::{CUBE, GREATEST, KEY, LEAST, ORIGIN, PART, PLACE, PULLS, UPPER};
 use super::{
     GROUP, Opening, TREE_BODY, TREE_CENTER, TREE_DEMAND, TREE_HIGH, TREE_ID, TREE_LOW, TREE_MASS, TREE_SHAPE, Tree,
     curve,
 };
 use crate::error::Error;
-use crate::kernel::{ACCELERATION, Host, POSITION};
+use crate::kernel::{ACCELERATION, Host, POSITION, POSITION_LOW};
 
 /// The corner of the cube, and cells per length; 0 where that overflows single precision.
 pub(super) fn cube(_: &Tree, host: &Host) -> Result<(), Error> {
@@ -23,7 +23,7 @@ pub(super) fn cube(_: &Tree, host: &Host) -> Result<(), Error> {
 
 /// Cells by the device's own arithmetic, so that a body at an edge is on the same side for both.
 pub(super) fn keys(tree: &Tree, host: &Host) -> Result<(), Error> {
-    let (position, cube) = (host.read(POSITION)?, host.read(CUBE)?);
+    let (position, cube) = (host.read(tree.places())?, host.read(CUBE)?);
     let cube = cube.first().map_or(Vec4::ZERO, |c| c.as_vec4());
     let (mut lower, mut upper) = (host.write(KEY)?, host.write(UPPER)?);
     let mut ids = host.writing::<u32>(&tree.field(TREE_ID).1)?;
@@ -55,8 +55,19 @@ pub(super) fn upper(tree: &Tree, host: &Host) -> Result<(), Error> {
     Ok(())
 }
 
+/// The high words hold all digits here; those of a device have a part of them in the low words.
+pub(super) fn places(tree: &Tree, host: &Host) -> Result<(), Error> {
+    let (position, low) = (host.read(POSITION)?, host.read(POSITION_LOW)?);
+    let origin = host.read(ORIGIN)?.first().map_or(DVec3::ZERO, |corner| corner.truncate());
+    let both = position.iter().zip(low.iter()).take(tree.used as usize);
+    for (place, (x, rest)) in host.write(PLACE)?.iter_mut().zip(both) {
+        *place = (x.truncate() - origin + rest.truncate()).extend(x.w);
+    }
+    Ok(())
+}
+
 pub(super) fn carry(tree: &Tree, host: &Host) -> Result<(), Error> {
-    let (ids, position) = (host.reading::<u32>(&tree.field(TREE_ID).1)?, host.read(POSITION)?);
+    let (ids, position) = (host.reading::<u32>(&tree.field(TREE_ID).1)?, host.read(tree.places())?);
     for (body, id) in
         host.writing::<Vec4>(&tree.field(TREE_BODY).1)?.iter_mut().zip(ids.iter()).take(tree.used as usize)
     {

@@ -58,12 +58,23 @@ impl Law {
         }
         files
     }
+    /// The files with its sum over all pairs: compensated, where positions have two words and the sum is the usual one.
+    pub(super) fn sums_over_all(&self, problem: &Problem) -> Vec<Source> {
+        let usual = crate::shader!("visit/sum.wgsl");
+        let sums = self.sums();
+        if problem.precision.is_double() && sums.contains(&usual) {
+            return vec![crate::shader!("integrators/two_sum.wgsl"), crate::shader!("visit/sum_compensated.wgsl")];
+        }
+        [sums, vec![crate::shader!("visit/gathered.wgsl")]].concat()
+    }
     /// The law's own file and those that it relies on: a sum of accelerations, unless it has one, and the functions that it calls.
     pub(super) fn files(&self, problem: &Problem) -> Vec<Source> {
+        self.files_with(if self.over == Over::Each { Vec::new() } else { self.sums() }, problem)
+    }
+    /// The same with these files for its sum.
+    pub(super) fn files_with(&self, sums: Vec<Source>, problem: &Problem) -> Vec<Source> {
         let mut files = vec![self.turns()];
-        if self.over != Over::Each {
-            files.extend(self.sums());
-        }
+        files.extend(sums);
         for (function, file) in ON_CALL {
             let called = self.wgsl.says(&[function, "("]) && !self.wgsl.says(&["fn", function, "("]);
             if called && !files.contains(&file) {

@@ -7,7 +7,7 @@ use glam::{DVec3, DVec4};
 use super::reference::{ByTables, Sample};
 use super::{
     Group, Jacobian, Memory, Outcome, Over, PAIR_TABLE, PairTable, Particle, Search, Tables, each, links, list, near,
-    pairs, reference, tree, virial, walk,
+    pairs, reference, tree, two_words, virial, walk,
 };
 use crate::error::Error;
 use crate::kernel::{
@@ -262,7 +262,9 @@ impl Law {
         Ok(kernel)
     }
     pub(super) fn visiting(self, problem: &Problem) -> Result<Kernel, Error> {
-        match self.chosen(problem) {
+        let over = self.chosen(problem);
+        two_words::check(&self, over, problem)?;
+        let kernel = match over {
             Over::Each => each::kernel(self, problem),
             Over::Pairs | Over::Within { .. } => pairs::kernel(self, problem),
             Over::Near { .. } | Over::Nearest { .. } => near::kernel(self, problem),
@@ -270,7 +272,8 @@ impl Law {
             Over::Auto { .. } => Err(Error::Scene(format!("`{}` has no visit", self.name))),
             Over::Tree { opening, core, .. } => tree::kernel(self, &Tree::new(opening, core, problem), problem),
             Over::Links | Over::Joints | Over::Triangles => links::kernel(self, problem),
-        }
+        };
+        kernel.map(|kernel| two_words::refined(kernel, over, problem))
     }
     /// The grid that it searches, if any, and whether it reads velocities there.
     ///

@@ -61,10 +61,14 @@ pub fn kernel(law: Law, problem: &Problem) -> Result<Kernel, Error> {
     let tables = Tables::of(problem);
     match (corners, tables) {
         (true, _) => files.push(crate::shader!("visit/corners.wgsl")),
-        (false, Tables::Alike) => files.push(crate::shader!("visit/links_alike.wgsl")),
-        (false, _) => {
-            files.extend([crate::shader!("visit/link_table.wgsl"), crate::shader!("visit/links.wgsl")]);
+        (false, Tables::Alike) => {
+            files.extend([problem.precision.differences(), crate::shader!("visit/links_alike.wgsl")]);
         }
+        (false, _) => files.extend([
+            problem.precision.differences(),
+            crate::shader!("visit/link_table.wgsl"),
+            crate::shader!("visit/links.wgsl"),
+        ]),
     }
     files.push(law.result());
     files.extend(law.alarm_file());

@@ -18,6 +18,7 @@ mod search;
 mod tied;
 mod tree;
 mod turns;
+mod two_words;
 mod virial;
 mod walk;
 

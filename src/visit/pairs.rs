@@ -9,6 +9,9 @@ use crate::neighbors::checked;
 
 /// The maximum number of sources that one invocation evaluates in one dispatch: half of the 65 535 loop iterations that lavapipe allows.
 const SOURCES: u32 = 1 << 15;
+/// The number of particles up to which each source is added to a compensated sum, and not each block: there the time of a step does not
+/// depend on it.
+const FEW: u32 = 2048;
 /// The maximum number of layers: more cost more to add up than they gain.
 const LAYERS: u32 = 64;
 
@@ -57,12 +60,13 @@ fn join(visit: Source, law: &Law, problem: &Problem) -> Result<Arc<Shader>, Erro
         crate::shader!("particle.wgsl"),
         crate::shader!("visit/span.wgsl"),
         if law.over.range().is_some() { crate::shader!("visit/within.wgsl") } else { crate::shader!("visit/all.wgsl") },
+        problem.precision.differences(),
         visit,
     ];
     files.push(law.result());
     files.extend(law.choice());
     files.extend(law.alarm_file());
-    files.extend(law.files(problem));
+    files.extend(law.files_with(law.sums_over_all(problem), problem));
     Shader::join(&files)
 }
 
@@ -80,6 +84,10 @@ pub fn kernel(law: Law, problem: &Problem) -> Result<Kernel, Error> {
     let mut common = problem.constants(&shader);
     common.extend(law.over.range().map(|range| ("RANGE", range)));
     common.extend(law.mark());
+    // Few additions more cost nothing; many round at random.
+    common.extend(
+        shader.reflection().overrides.contains_key("EACH").then_some(("EACH", f64::from(u8::from(count <= FEW)))),
+    );
     let whole = cut.sources() >= u64::from(count) && cut.layers == 1;
 
     let mut passes = Vec::new();

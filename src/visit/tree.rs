@@ -6,7 +6,8 @@ use std::sync::Arc;
 use super::{Law, Over};
 use crate::error::Error;
 use crate::kernel::{
-    ALARM, ALARM_WORDS, Binding, Indirect, Kernel, Machine, Pass, Problem, Scalar, Shader, Side, Source, Threads,
+    ALARM, ALARM_WORDS, Binding, Indirect, Kernel, Machine, Pass, Precision, Problem, Scalar, Shader, Side, Source,
+    Threads,
 };
 use crate::tree::{GROUP, LEAF, Opening, Tree};
 
@@ -119,6 +120,15 @@ pub fn kernel(law: Law, tree: &Tree, problem: &Problem) -> Result<Kernel, Error>
         return Err(Error::Scene(format!(
             "`{}` walks a tree with θ = {theta}: it must be above 0, and 1 at most",
             law.name
+        )));
+    }
+    if tree.two_words && law.wgsl.law {
+        return Err(Error::Scene(format!(
+            "`{}` is a law of your own over a tree, whose bodies have places from a corner where precision = \"{}\": choose over = \"pairs\", \
+             or precision = \"{}\"",
+            law.name,
+            problem.precision.name(),
+            Precision::Compensated.name()
         )));
     }
     if !law.distant.images && problem.bounds.has(Side::Periodic) {

@@ -81,20 +81,22 @@ pub fn reference(
     Arc::new(move |host| {
         let view = View::of(host)?;
         let (bodies, world) = (view.particles(), host.world());
-        let tree = Tree { opening, core, count: world.capacity(), used: world.count };
+        let tree = Tree { opening, core, count: world.capacity(), used: world.count, two_words: false };
         let nodes = Nodes::of(&tree, host)?;
         if nodes.ids().iter().take(tree.used as usize).any(|id| *id as usize >= bodies.len()) {
             return Err(Error::Scene(format!("the tree {opening} is not one of these {} particles", bodies.len())));
         }
-        let meet = |me: &Particle, met: &Met| -> DVec4 {
+        // Positions may have two words, of which a view has one: the places of the tree have both.
+        let place = |slot: usize| nodes.bodies()[slot].truncate();
+        let meet = |mine: usize, me: &Particle, met: &Met| -> DVec4 {
             let near = met.leaves.iter().flat_map(|leaf| nodes.range(*leaf)).filter_map(|slot| {
                 let you = &bodies[nodes.ids()[slot] as usize];
-                let r = world.bounds.shortest(you.position - me.position);
+                let r = world.bounds.shortest(place(slot) - place(mine));
                 (you.index != me.index).then(|| rule(me, you, r, &world))
             });
             let far = met.far.iter().map(|node| {
                 let group = Group { mass: nodes.mass(*node), moments: nodes.moments(*node) };
-                far(me, &group, world.bounds.shortest(nodes.center(*node) - me.position), &world)
+                far(me, &group, world.bounds.shortest(nodes.center(*node) - place(mine)), &world)
             });
             near.sum::<DVec4>() + far.sum::<DVec4>()
         };
@@ -113,7 +115,7 @@ pub fn reference(
                     slots[0]..slots[0] + slots.len(),
                 );
                 let of = |slot: &usize| nodes.ids()[*slot] as usize;
-                slots.iter().map(|slot| (of(slot), meet(&bodies[of(slot)], &met))).collect::<Vec<_>>()
+                slots.iter().map(|slot| (of(slot), meet(*slot, &bodies[of(slot)], &met))).collect::<Vec<_>>()
             })
             .collect();
         let mut acceleration = host.write(ACCELERATION)?;

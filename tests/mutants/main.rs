@@ -37,6 +37,7 @@ mod strained;
 mod support;
 mod together;
 mod trees;
+mod two_words;
 mod walks;
 
 use std::path::{Path, PathBuf};
@@ -171,6 +172,7 @@ fn every_mutant_is_noticed() {
         walks::EQUIVALENT,
         adaptive::EQUIVALENT,
         precision::EQUIVALENT,
+        two_words::EQUIVALENT,
         fluids::EQUIVALENT,
         pairs::EQUIVALENT,
         repeat::EQUIVALENT,

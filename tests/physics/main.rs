@@ -28,5 +28,6 @@ mod solids;
 mod springs;
 mod stability;
 mod steering;
+mod two_words;
 mod vicsek;
 mod walls;

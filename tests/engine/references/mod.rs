@@ -1,6 +1,7 @@
 //! Every kernel against its f64 reference, in lockstep: each law alone, each integrator whole, at sizes around the workgroup's.
 
 mod dispatches;
+mod two_words;
 
 use std::fmt::Display;
 

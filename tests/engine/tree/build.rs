@@ -134,7 +134,7 @@ fn nodes_are_what_their_bodies_are() {
 fn leaves_and_levels_part_the_bodies() {
     for count in SIZES.into_iter().chain([0, 65_537, 1 << 27]) {
         let count = u32::try_from(count).expect("few");
-        let tree = Tree { opening: GEOMETRIC, core: 0.0, count, used: count };
+        let tree = Tree { opening: GEOMETRIC, core: 0.0, count, used: count, two_words: false };
         for above in (0..=tree.height()).rev().take(12) {
             let (first, nodes) = tree.level(above);
             let mut next = 0;
