@@ -4,8 +4,7 @@ const TARGETS: u32 = 4u;
 const BLOCK: u32 = 128u;
 
 fn source(k: u32) -> Particle {
-    let p = position[k];
-    return Particle(k, p.xyz, p.w);
+    return particle_of(k, position[k], low_words_of(k));
 }
 
 @compute @workgroup_size(WORKGROUP)

@@ -1,10 +1,10 @@
 // All pairs, for adapters whose subgroups are all of eight lanes (lavapipe with 256-bit vectors):
-// each lane loads one source, and the eight are passed round by broadcast.
+// each lane loads one source, and the eight are passed round by broadcast. What single precision has no use for compilers leave out.
 const WORKGROUP: u32 = 32u;
 const TARGETS: u32 = 4u;
 const BLOCK: u32 = 128u;
 
-fn source(k: u32, p: vec4f) -> Particle { return Particle(k, p.xyz, p.w); }
+fn source(k: u32, p: vec4f, low: vec3f) -> Particle { return particle_of(k, p, low); }
 
 @compute @workgroup_size(WORKGROUP)
 fn pairs(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u, @builtin(local_invocation_index) lane: u32,
@@ -32,30 +32,32 @@ fn pairs(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: v
         if full && apart {
             for (var k = start; k < start + BLOCK; k += 8u) {
                 let p = position[k + place];
-                meet(source(k, subgroupBroadcast(p, 0u)), a, b, c, d, &sum_a, &sum_b, &sum_c, &sum_d);
-                meet(source(k + 1u, subgroupBroadcast(p, 1u)), a, b, c, d, &sum_a, &sum_b, &sum_c, &sum_d);
-                meet(source(k + 2u, subgroupBroadcast(p, 2u)), a, b, c, d, &sum_a, &sum_b, &sum_c, &sum_d);
-                meet(source(k + 3u, subgroupBroadcast(p, 3u)), a, b, c, d, &sum_a, &sum_b, &sum_c, &sum_d);
-                meet(source(k + 4u, subgroupBroadcast(p, 4u)), a, b, c, d, &sum_a, &sum_b, &sum_c, &sum_d);
-                meet(source(k + 5u, subgroupBroadcast(p, 5u)), a, b, c, d, &sum_a, &sum_b, &sum_c, &sum_d);
-                meet(source(k + 6u, subgroupBroadcast(p, 6u)), a, b, c, d, &sum_a, &sum_b, &sum_c, &sum_d);
-                meet(source(k + 7u, subgroupBroadcast(p, 7u)), a, b, c, d, &sum_a, &sum_b, &sum_c, &sum_d);
+                let low = low_words_of(k + place);
+                meet(source(k, subgroupBroadcast(p, 0u), subgroupBroadcast(low, 0u)), a, b, c, d, &sum_a, &sum_b, &sum_c, &sum_d);
+                meet(source(k + 1u, subgroupBroadcast(p, 1u), subgroupBroadcast(low, 1u)), a, b, c, d, &sum_a, &sum_b, &sum_c, &sum_d);
+                meet(source(k + 2u, subgroupBroadcast(p, 2u), subgroupBroadcast(low, 2u)), a, b, c, d, &sum_a, &sum_b, &sum_c, &sum_d);
+                meet(source(k + 3u, subgroupBroadcast(p, 3u), subgroupBroadcast(low, 3u)), a, b, c, d, &sum_a, &sum_b, &sum_c, &sum_d);
+                meet(source(k + 4u, subgroupBroadcast(p, 4u), subgroupBroadcast(low, 4u)), a, b, c, d, &sum_a, &sum_b, &sum_c, &sum_d);
+                meet(source(k + 5u, subgroupBroadcast(p, 5u), subgroupBroadcast(low, 5u)), a, b, c, d, &sum_a, &sum_b, &sum_c, &sum_d);
+                meet(source(k + 6u, subgroupBroadcast(p, 6u), subgroupBroadcast(low, 6u)), a, b, c, d, &sum_a, &sum_b, &sum_c, &sum_d);
+                meet(source(k + 7u, subgroupBroadcast(p, 7u), subgroupBroadcast(low, 7u)), a, b, c, d, &sum_a, &sum_b, &sum_c, &sum_d);
             }
         } else if full {
             for (var k = start; k < start + BLOCK; k += 8u) {
                 let p = position[k + place];
-                meet_others(source(k, subgroupBroadcast(p, 0u)), a, b, c, d, &sum_a, &sum_b, &sum_c, &sum_d);
-                meet_others(source(k + 1u, subgroupBroadcast(p, 1u)), a, b, c, d, &sum_a, &sum_b, &sum_c, &sum_d);
-                meet_others(source(k + 2u, subgroupBroadcast(p, 2u)), a, b, c, d, &sum_a, &sum_b, &sum_c, &sum_d);
-                meet_others(source(k + 3u, subgroupBroadcast(p, 3u)), a, b, c, d, &sum_a, &sum_b, &sum_c, &sum_d);
-                meet_others(source(k + 4u, subgroupBroadcast(p, 4u)), a, b, c, d, &sum_a, &sum_b, &sum_c, &sum_d);
-                meet_others(source(k + 5u, subgroupBroadcast(p, 5u)), a, b, c, d, &sum_a, &sum_b, &sum_c, &sum_d);
-                meet_others(source(k + 6u, subgroupBroadcast(p, 6u)), a, b, c, d, &sum_a, &sum_b, &sum_c, &sum_d);
-                meet_others(source(k + 7u, subgroupBroadcast(p, 7u)), a, b, c, d, &sum_a, &sum_b, &sum_c, &sum_d);
+                let low = low_words_of(k + place);
+                meet_others(source(k, subgroupBroadcast(p, 0u), subgroupBroadcast(low, 0u)), a, b, c, d, &sum_a, &sum_b, &sum_c, &sum_d);
+                meet_others(source(k + 1u, subgroupBroadcast(p, 1u), subgroupBroadcast(low, 1u)), a, b, c, d, &sum_a, &sum_b, &sum_c, &sum_d);
+                meet_others(source(k + 2u, subgroupBroadcast(p, 2u), subgroupBroadcast(low, 2u)), a, b, c, d, &sum_a, &sum_b, &sum_c, &sum_d);
+                meet_others(source(k + 3u, subgroupBroadcast(p, 3u), subgroupBroadcast(low, 3u)), a, b, c, d, &sum_a, &sum_b, &sum_c, &sum_d);
+                meet_others(source(k + 4u, subgroupBroadcast(p, 4u), subgroupBroadcast(low, 4u)), a, b, c, d, &sum_a, &sum_b, &sum_c, &sum_d);
+                meet_others(source(k + 5u, subgroupBroadcast(p, 5u), subgroupBroadcast(low, 5u)), a, b, c, d, &sum_a, &sum_b, &sum_c, &sum_d);
+                meet_others(source(k + 6u, subgroupBroadcast(p, 6u), subgroupBroadcast(low, 6u)), a, b, c, d, &sum_a, &sum_b, &sum_c, &sum_d);
+                meet_others(source(k + 7u, subgroupBroadcast(p, 7u), subgroupBroadcast(low, 7u)), a, b, c, d, &sum_a, &sum_b, &sum_c, &sum_d);
             }
         } else {
             for (var k = start; k < min(start + BLOCK, end); k += 1u) {
-                let you = source(k, position[k]);
+                let you = source(k, position[k], low_words_of(k));
                 meet_others(you, a, b, c, d, &sum_a, &sum_b, &sum_c, &sum_d);
             }
         }

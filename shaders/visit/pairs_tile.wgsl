@@ -6,8 +6,7 @@ const BLOCK: u32 = 128u;
 var<workgroup> tile: array<vec4f, BLOCK>;
 
 fn source(start: u32, k: u32) -> Particle {
-    let p = tile[k];
-    return Particle(start + k, p.xyz, p.w);
+    return particle_of(start + k, tile[k], low_words_of(start + k));
 }
 
 @compute @workgroup_size(WORKGROUP)

@@ -36,11 +36,11 @@ impl Precision {
     pub fn named(name: &str) -> Option<Self> {
         Self::ALL.into_iter().find(|precision| precision.name() == name)
     }
-    /// The file by which laws of pairs refine the difference of two positions.
-    pub(crate) fn differences(self) -> Source {
+    /// The file with the particle of a law of pairs or links, and the difference of two positions.
+    pub(crate) fn particle(self) -> Source {
         match self {
-            Self::Single | Self::Compensated => crate::shader!("visit/high_words.wgsl"),
-            Self::DoubleSingle => crate::shader!("visit/two_words.wgsl"),
+            Self::Single | Self::Compensated => crate::shader!("particle.wgsl"),
+            Self::DoubleSingle => crate::shader!("particle_two_words.wgsl"),
         }
     }
     /// Whether positions and velocities have low words.

@@ -57,18 +57,14 @@ pub fn kernel(law: Law, problem: &Problem) -> Result<Kernel, Error> {
         "fn gather(me: Particle, you: Particle, r: vec3f, link: Link, sum: ptr<function, Sum>)"
     };
     law.requires(&[("gather", gather), law.finish()])?;
-    let mut files = vec![crate::shader!("world.wgsl"), crate::shader!("fields.wgsl"), crate::shader!("particle.wgsl")];
+    let mut files = vec![crate::shader!("world.wgsl"), crate::shader!("fields.wgsl"), problem.precision.particle()];
     let tables = Tables::of(problem);
     match (corners, tables) {
         (true, _) => files.push(crate::shader!("visit/corners.wgsl")),
-        (false, Tables::Alike) => {
-            files.extend([problem.precision.differences(), crate::shader!("visit/links_alike.wgsl")]);
+        (false, Tables::Alike) => files.push(crate::shader!("visit/links_alike.wgsl")),
+        (false, _) => {
+            files.extend([crate::shader!("visit/link_table.wgsl"), crate::shader!("visit/links.wgsl")]);
         }
-        (false, _) => files.extend([
-            problem.precision.differences(),
-            crate::shader!("visit/link_table.wgsl"),
-            crate::shader!("visit/links.wgsl"),
-        ]),
     }
     files.push(law.result());
     files.extend(law.alarm_file());

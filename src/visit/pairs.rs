@@ -57,10 +57,9 @@ fn join(visit: Source, law: &Law, problem: &Problem) -> Result<Arc<Shader>, Erro
     let mut files = vec![
         crate::shader!("world.wgsl"),
         crate::shader!("fields.wgsl"),
-        crate::shader!("particle.wgsl"),
+        problem.precision.particle(),
         crate::shader!("visit/span.wgsl"),
         if law.over.range().is_some() { crate::shader!("visit/within.wgsl") } else { crate::shader!("visit/all.wgsl") },
-        problem.precision.differences(),
         visit,
     ];
     files.push(law.result());

@@ -173,6 +173,7 @@ pub const EQUIVALENT: &[Equivalent] = &[
     same("periodic.wgsl", "if inside >= low", ">=", ">", AT_THE_SIDE),
     same("reflecting.wgsl", "velocity[i] = v * vec4f(", "*", "/", "1 and -1 are their own inverses"),
     same("particle.wgsl", "let index = min(i, world.count - 1u);", "-", "+", STORES_NOTHING),
+    same("particle_two_words.wgsl", "let index = min(i, world.count - 1u);", "-", "+", STORES_NOTHING),
     same("span.wgsl", "i >= world.count { return Sum(); }", ">=", ">", STORES_NOTHING),
     same(
         "pairs_tile.wgsl",

@@ -231,7 +231,7 @@ pub fn all(shared: &Shared) -> Vec<Stage> {
     crate::repeat::all(&device, &mut stages);
     crate::implicit::all(&device, &mut stages);
     crate::precision::all(&device, &mut stages);
-    crate::two_words::all(&device, &mut stages);
+    crate::two_words::all(shared, &device, &mut stages);
     alarms::watches(&device, &mut stages);
     alarms::runaways(&device, &mut stages);
     crate::boundary::boundary(&device, &mut stages);

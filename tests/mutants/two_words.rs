@@ -8,9 +8,9 @@ use motes::tree::{Opening, Tree};
 
 use crate::stages::{Device, FEW, Stage, moving, stage};
 use crate::support::equivalents::Equivalent;
-use crate::support::machines::kernels;
+use crate::support::machines::{kernels, machines};
 use crate::support::states::force;
-use crate::support::{self, Random};
+use crate::support::{self, Random, Shared};
 
 pub const EQUIVALENT: &[Equivalent] = &[];
 
@@ -103,7 +103,19 @@ fn differences(device: &Device, stages: &mut Vec<Stage>) {
     }
 }
 
-pub fn all(device: &Device, stages: &mut Vec<Stage>) {
+/// Each visit of all pairs, with blocks of its own targets, of others, and one that is not full.
+fn visits(shared: &Shared, device: &Device, stages: &mut Vec<Stage>) {
+    let count = MANY + 10;
+    for (name, machine) in machines(shared).into_iter().filter(|(name, _)| !name.contains("layers")) {
+        let problem = problem(count, machine);
+        for kernel in kernels(force("gravity", &[]).as_ref(), &problem) {
+            stages.push(stage(&format!("{name} in two words"), moving(device, count, Some(machine)), kernel));
+        }
+    }
+}
+
+pub fn all(shared: &Shared, device: &Device, stages: &mut Vec<Stage>) {
     sums(device, stages);
+    visits(shared, device, stages);
     differences(device, stages);
 }
