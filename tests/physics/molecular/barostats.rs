@@ -130,7 +130,7 @@ fn liquid(cells: u32, density: f64) -> (State, Bounds) {
     (state, periodic(DVec3::ZERO, DVec3::splat(f64::from(cells) * edge)))
 }
 
-fn on_gpu(setup: &Setup) -> Simulation<motes::Gpu> {
+pub(super) fn on_gpu(setup: &Setup) -> Simulation<motes::Gpu> {
     let shared = crate::support::device();
     let gpu = crate::support::machines::gpu(&shared, setup.state.len());
     Simulation::on(gpu, setup).expect("a simulation")

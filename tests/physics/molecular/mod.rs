@@ -12,6 +12,7 @@ mod baths;
 mod boxes;
 mod lammps;
 mod laws;
+mod liquid;
 mod minimum;
 mod nist;
 mod pressure;
