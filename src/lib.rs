@@ -44,11 +44,15 @@ pub mod component;
 pub mod constraints;
 #[doc(hidden)]
 pub mod cpu;
+#[doc(hidden)]
+pub mod crowds;
 pub mod diagnose;
 #[doc(hidden)]
 pub mod error;
 #[cfg(doc)]
 pub mod examples;
+#[doc(hidden)]
+pub mod floor_plan;
 #[doc(hidden)]
 pub mod forces;
 #[cfg(feature = "scene")]

@@ -8,7 +8,10 @@ mod kept;
 mod life;
 mod room;
 
+use std::sync::Arc;
+
 use crate::error::Error;
+use crate::floor_plan::FloorPlan;
 use crate::kernel::{Array, Column, Columns, Kind, Shape};
 use crate::life::{Birth, Drain};
 use crate::links::Links;
@@ -44,6 +47,8 @@ pub struct State {
     pub births: Vec<Birth>,
     /// The drains, which remove particles.
     pub drains: Vec<Drain>,
+    /// The floor plan, if there is one.
+    pub floor_plan: Option<Arc<FloorPlan>>,
     /// The time \[time\].
     pub time: f64,
     /// Steps done.
@@ -81,6 +86,7 @@ impl Default for State {
             motions: Vec::new(),
             births: Vec::new(),
             drains: Vec::new(),
+            floor_plan: None,
             time: 0.0,
             step: 0,
             capacity: None,
@@ -92,6 +98,13 @@ impl Default for State {
 }
 
 impl State {
+    /// The same on a floor plan, where pedestrians leave at its exits.
+    #[must_use]
+    pub fn on_floor(mut self, plan: FloorPlan) -> Self {
+        self.drains.extend(plan.drains());
+        self.floor_plan = Some(Arc::new(plan));
+        self
+    }
     /// Number of particles.
     #[must_use]
     pub fn len(&self) -> usize {

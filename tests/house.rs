@@ -144,13 +144,14 @@ fn no_binding_number_is_written_in_rust() {
 }
 
 /// A module may name only what stands before it.
-const ORDER: [&str; 38] = [
+const ORDER: [&str; 40] = [
     "error",
     "settings",
     "links",
     "motion",
     "solids",
     "life",
+    "floor_plan",
     "kernel",
     "state",
     "boundary",
@@ -160,6 +161,7 @@ const ORDER: [&str; 38] = [
     "tree",
     "visit",
     "grains",
+    "crowds",
     "sph",
     "component",
     "constraints",

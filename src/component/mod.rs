@@ -18,7 +18,9 @@ pub(crate) use registered::registered;
 
 use glam::{DVec3, Vec4};
 
+use crate::crowds::Press;
 use crate::error::Error;
+use crate::floor_plan::FloorPlan;
 use crate::grains::Material;
 use crate::kernel::{Bounds, Column, Plan, Problem, Way};
 use crate::neighbors::Grid;
@@ -36,6 +38,10 @@ pub trait Component: Copied + Send + Sync {
     }
     /// Columns of its own, which it shares with no other component, where `earlier` of its kind are before it: their names have its number.
     fn own_columns(&self, _earlier: usize) -> Vec<Column> {
+        Vec::new()
+    }
+    /// Columns of its own whose length is by the cells of a floor plan.
+    fn plan_columns(&self, _plan: &FloorPlan) -> Vec<Column> {
         Vec::new()
     }
     /// Its laws, in the order in which they are evaluated; a later one may read what an earlier one wrote.
@@ -193,6 +199,10 @@ pub struct Properties {
     pub history: bool,
     /// The materials with which particles touch.
     pub touches: Vec<Material>,
+    /// How pedestrians press and rub.
+    pub presses: Option<Press>,
+    /// Whether it leads to the exits of a floor plan.
+    pub navigates: bool,
     /// Whether it breaks bonds.
     pub breaks_bonds: bool,
     /// Whether it is evaluated after all others, wherever it is in the scene.

@@ -3,6 +3,7 @@
 use super::misnamed::misnamed;
 use super::{Change, Component, Properties, Resolved, Stage, Tail};
 use crate::error::Error;
+use crate::floor_plan::FloorPlan;
 use crate::kernel::{Bounds, Column, Plan, Problem};
 use crate::settings::{Key, Settings, unknown};
 use crate::visit::Law;
@@ -55,6 +56,9 @@ impl Component for Registered {
     }
     fn own_columns(&self, earlier: usize) -> Vec<Column> {
         self.made.own_columns(earlier)
+    }
+    fn plan_columns(&self, plan: &FloorPlan) -> Vec<Column> {
+        self.made.plan_columns(plan)
     }
     fn laws(&self) -> Vec<Law> {
         self.made.laws()

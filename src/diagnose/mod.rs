@@ -5,6 +5,7 @@ mod advice;
 mod baths;
 mod births;
 mod contradictions;
+mod crowds;
 mod far;
 mod flow;
 mod fluid;
@@ -91,7 +92,7 @@ const STEPS: u64 = 10_000;
 ///
 /// # Errors
 /// [`Error::Scene`] when it makes no sense, or could not but be lost: forces that lead out of the plane of a flat box, a fluid in steps
-/// that are far too long, or one that starts under a pressure that blows it apart.
+/// that are far too long, one that starts under a pressure that blows it apart, or a crowd whose contacts are unstable.
 pub async fn diagnose(setup: &Setup) -> Result<Vec<Remark>, Error> {
     let setup = &*setup.in_its_box()?;
     let Judged { verdict, mut remarks, .. } = Judged::of(setup, STEPS).await?;
@@ -132,6 +133,7 @@ impl Judged {
             remarks.extend(flow::warning(&flow, setup)?);
         }
         remarks.extend(grains::remarks(setup));
+        remarks.extend(crowds::remarks(setup)?);
         let verdict = Verdict::of(setup, &build, steps).await?;
         Ok(Self { verdict, start, lines, remarks })
     }

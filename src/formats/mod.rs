@@ -12,6 +12,7 @@ mod blocks;
 mod collection;
 mod contents;
 mod convert;
+pub mod floor_plan;
 mod line;
 pub mod links;
 mod npy;

@@ -35,6 +35,10 @@ components! {
     soft: Soft, "soft spheres that may overlap, by pair of species (Groot & Warren 1997)";
     contact: Contact, "granular contacts of spheres: normal springs and dashpots, friction with history, torques (Cundall & Strack 1979)";
     contact_wall: ContactWall, "a wall that grains touch as they touch each other: plane, box, sphere, capsule, tube or funnel, still or moving (Cundall & Strack 1979)";
+    social_force: SocialForce, "pedestrians keep apart; where they touch they press and rub (Helbing, Farkas & Vicsek 2000)";
+    walk: Walk, "pedestrians take up their desired speed, along a direction or to a target (Helbing & Molnár 1995)";
+    navigate: Navigate, "pedestrians take up their desired speed along the shortest way to an exit of the plan (Helbing & Molnár 1995; Rouy & Tourin 1992)";
+    social_wall: SocialWall, "walls of the plan that pedestrians keep away from, press and rub on, and never pass (Helbing, Farkas & Vicsek 2000)";
     spring: Spring, "springs and ropes, damped along their axis (Hooke 1678)";
     joint: Joint, "joints that resist bending: elastic rods, hair (Euler 1744)";
     fluid: Fluid, "a fluid by smoothed particle hydrodynamics, weakly compressible (Monaghan 1994); fixed particles are its walls";

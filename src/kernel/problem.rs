@@ -5,6 +5,7 @@ use std::sync::Arc;
 use glam::DVec3;
 
 use super::{AdaptiveStep, Bounds, Columns, ListShape, Machine, Name, Precision, Shader, Side, Solver, Source, Table};
+use crate::floor_plan::FloorPlan;
 use crate::life::{Birth, Drain};
 use crate::links::{Links, Network};
 use crate::motion::{self, Held, Motion};
@@ -43,6 +44,8 @@ pub struct Problem {
     pub births: Arc<Vec<Birth>>,
     /// The drains.
     pub drains: Arc<Vec<Drain>>,
+    /// The floor plan, if there is one.
+    pub floor_plan: Option<Arc<FloorPlan>>,
     /// Whether some particles are not active all the time.
     pub has_inactive: bool,
     /// The step size \[time\]: motions are given in steps.
@@ -101,6 +104,7 @@ impl Problem {
             motions: Arc::default(),
             births: Arc::default(),
             drains: Arc::default(),
+            floor_plan: None,
             has_inactive: false,
             dt: 1.0,
             reached: 1.0,
@@ -171,6 +175,11 @@ impl Problem {
     pub fn with_life(self, births: &[Birth], drains: &[Drain], has_inactive: bool) -> Self {
         let has_inactive = has_inactive || !births.is_empty() || !drains.is_empty();
         Self { births: Arc::new(births.to_vec()), drains: Arc::new(drains.to_vec()), has_inactive, ..self }
+    }
+    /// The same on a floor plan.
+    #[must_use]
+    pub fn on_floor(self, floor_plan: Option<Arc<FloorPlan>>) -> Self {
+        Self { floor_plan, ..self }
     }
     /// The file with `fn is_active(id: u32) -> bool`.
     #[must_use]

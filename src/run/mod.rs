@@ -200,7 +200,8 @@ impl Run {
         let packed = Packed::of(&scene, options.also(), options.from.as_deref())?;
         let begun = course::begun(&scene, &setup.state);
         let properties = || setup.forces.iter().map(|force| force.properties());
-        let standing = properties().filter_map(|of| of.pictured).collect();
+        let walls = setup.state.floor_plan.iter().flat_map(|plan| plan.standing());
+        let standing = properties().filter_map(|of| of.pictured).chain(walls).collect();
         let scenery = Scenery::of(&setup.state).within(&setup.bounds).beside(standing, &setup.state);
         images::check(&scene.output)?;
         Picture::with(&scene.picture, &setup.state, &[], Trail::new(0), &scenery)?;

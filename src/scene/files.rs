@@ -12,6 +12,9 @@ const LONGEST_SHADER: u64 = 1 << 20;
 /// The longest mesh \[bytes\].
 const LONGEST_MESH: u64 = 1 << 30;
 
+/// The longest floor plan \[bytes\].
+const LONGEST_PLAN: u64 = 1 << 24;
+
 /// The folders in which files are searched.
 pub(super) struct Files {
     /// The files that were found, by absolute paths.
@@ -91,6 +94,10 @@ impl Located {
     /// Its text, for a shader.
     pub(super) fn shader(&self, place: &Place) -> Result<String, Fault> {
         self.text(place, "a shader", LONGEST_SHADER)
+    }
+    /// Its text, for a floor plan.
+    pub(super) fn plan(&self, place: &Place) -> Result<String, Fault> {
+        self.text(place, "a floor plan", LONGEST_PLAN)
     }
     /// Its text, for a mesh.
     pub(super) fn mesh(&self, place: &Place) -> Result<String, Fault> {

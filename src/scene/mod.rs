@@ -33,6 +33,7 @@ mod overrides;
 mod own;
 mod pairs;
 mod particles;
+mod plan;
 mod report;
 mod resolved;
 mod sections;
@@ -235,6 +236,7 @@ fn read(sections: &[(&'static str, Table<'_>)], files: &Files, options: &Options
     let solver = solver::read(one("solver"), &mut out, report);
     let bounds = bounds::read(one("box"), &mut out, report);
 
+    let floor_plan = plan::read(one("plan"), (files, bounds.dimensions), &mut out, report);
     let mut motions = Vec::new();
     for table in all("motion") {
         motions.extend(motion::read(table, &motions, (simulation.dt, &bounds), &mut out, report));
@@ -293,6 +295,9 @@ fn read(sections: &[(&'static str, Table<'_>)], files: &Files, options: &Options
         if let Err(why) = particles.declare(column) {
             report.push(Fault::at(place, why.to_string()));
         }
+    }
+    if let Some(plan) = floor_plan {
+        particles = particles.on_floor(plan);
     }
     for table in all("drain") {
         particles.drains.extend(drain::read(table, bounds.dimensions, &mut out, report));

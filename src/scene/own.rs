@@ -30,6 +30,14 @@ pub(super) const BOX: &[Own] = &[
     own("z", "as boundary", "the boundary at the two sides across z"),
     own("dimensions", "3; flat: 2", "2 or 3: in 2 all particles stay in one plane"),
 ];
+pub(super) const PLAN: &[Own] = &[
+    own(
+        "file",
+        "must be given",
+        "the plan as well-known text: POLYGONs are the floor, each LINESTRING on it is an exit",
+    ),
+    own("exits", "exit 1, exit 2, …", "the names of exits, in their order in the file"),
+];
 pub(super) const MOTION: &[Own] = &[
     own("name", "must be given", "the name by which particles and obstacles refer to it"),
     own(

@@ -9,7 +9,7 @@ use crate::settings::Key;
 use crate::shapes::SHAPES;
 
 use super::own::{self, Own};
-use super::{bounds, checkpoint, column, drain, emitter, links, motion, output, particles, simulation, solver};
+use super::{bounds, checkpoint, column, drain, emitter, links, motion, output, particles, plan, simulation, solver};
 
 /// A section.
 pub struct Section {
@@ -40,6 +40,11 @@ pub const SECTIONS: &[Section] = &[
         ..Section::new("solver", false, solver::SOLVER_KEYS)
     },
     Section { about: "the domain and its boundaries", own: own::BOX, ..Section::new("box", false, bounds::BOX_KEYS) },
+    Section {
+        about: "a floor plan: walls and exits of pedestrians",
+        own: own::PLAN,
+        ..Section::new("plan", false, plan::PLAN_KEYS)
+    },
     Section {
         about: "prescribed motions of fixed particles and obstacles, by keyframes",
         own: own::MOTION,
@@ -115,7 +120,7 @@ impl Section {
 
 #[cfg(test)]
 mod tests {
-    use super::{SECTIONS, bounds, checkpoint, emitter, links, motion, simulation};
+    use super::{SECTIONS, bounds, checkpoint, emitter, links, motion, plan, simulation};
     use crate::scene::{force, measure, output};
 
     /// What a section reads by itself has its line in `own.rs`.
@@ -127,6 +132,7 @@ mod tests {
         };
         assert_eq!(names("simulation"), simulation::OWN);
         assert_eq!(names("box"), bounds::OWN);
+        assert_eq!(names("plan"), plan::OWN);
         assert_eq!(names("motion"), motion::OWN);
         assert_eq!(names("emitter"), emitter::OWN);
         assert_eq!(names("links"), links::OWN);

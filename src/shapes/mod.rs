@@ -6,6 +6,7 @@ mod build;
 pub mod chain;
 pub mod cloth;
 pub mod clusters;
+pub mod crowd;
 pub mod crystal;
 pub mod disk;
 pub mod drop;
@@ -107,6 +108,7 @@ pub const SHAPES: &[Shape] = &[
     random_box::RANDOM_BOX,
     spray::SPRAY,
     grains::GRAINS,
+    crowd::CROWD,
     chain::CHAIN,
     cloth::CLOTH,
     jelly::JELLY,

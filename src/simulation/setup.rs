@@ -193,6 +193,7 @@ impl Setup {
             .tied(&self.state.all_links(), &self.state.held)
             .moved(&self.state.motions, self.dt)
             .with_life(&self.state.births, &self.state.drains, self.state.has_inactive())
+            .on_floor(self.state.floor_plan.clone())
             .with_ids(self.state.has_ids() || self.state.capacity.is_some())
             .breaking(self.breaks())
             .stretched(self.elastic())
@@ -209,7 +210,10 @@ impl Setup {
     pub fn columns(&self) -> Result<Columns, Error> {
         let forces = component::declared(&self.forces);
         let integrator = self.integrator.columns();
-        let mut all: Vec<Column> = forces.chain(integrator).chain(columns::of_held(&self.state.held)).collect();
+        let of_plan = |plan| self.forces.iter().flat_map(move |force| force.plan_columns(plan));
+        let of_plan = self.state.floor_plan.iter().flat_map(|plan| of_plan(plan.as_ref()));
+        let mut all: Vec<Column> =
+            forces.chain(of_plan).chain(integrator).chain(columns::of_held(&self.state.held)).collect();
         let known = Columns::with(all.clone())?;
         for column in self.state.declared() {
             match known.get(&column.name) {
@@ -371,6 +375,19 @@ impl Setup {
     pub fn breaks(&self) -> bool {
         self.forces.iter().any(|force| force.properties().breaks_bonds)
     }
+    /// Refuses particles that start off the floor of a plan.
+    fn on_the_floor(&self) -> Result<(), Error> {
+        let (Some(plan), 0) = (&self.state.floor_plan, self.state.step) else { return Ok(()) };
+        let places = self.state.position().iter().enumerate();
+        let mut off = places.filter(|(i, x)| self.state.is_active(*i) && !plan.holds(x.truncate()));
+        let Some((first, x)) = off.next() else { return Ok(()) };
+        Err(Error::Scene(format!(
+            "{} particles are in a wall or off the floor of the plan, the first of them particle {first} at {} {}: move them into the POLYGON",
+            1 + off.count(),
+            x.x,
+            x.y
+        )))
+    }
     /// The number of particles, if the setup is valid.
     ///
     /// # Errors
@@ -404,6 +421,7 @@ impl Setup {
             self.bear()?;
         }
         boundary::check(&self.bounds)?;
+        self.on_the_floor()?;
         motion::check(held, motions, count, self.bounds.dimensions, self.dt)?;
         life::check((life, births, drains), held, count, self.bounds.dimensions)?;
         self.has_one_thermostat()?;

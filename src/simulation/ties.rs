@@ -1,9 +1,11 @@
 //! Links, motions, births and drains of the particles of a simulation.
 
 use std::collections::BTreeSet;
+use std::sync::Arc;
 
 use super::Simulation;
 use crate::error::Error;
+use crate::floor_plan::FloorPlan;
 use crate::kernel::{Array, Backend, Element};
 use crate::life::{Birth, Drain};
 use crate::links::{Links, Network, WORDS};
@@ -18,6 +20,7 @@ pub(super) struct Ties {
     motions: Vec<Motion>,
     births: Vec<Birth>,
     drains: Vec<Drain>,
+    floor_plan: Option<Arc<FloorPlan>>,
 }
 
 impl Ties {
@@ -25,7 +28,8 @@ impl Ties {
     pub fn of(state: &State) -> Self {
         let State { held, motions, births, drains, .. } = state;
         let (links, held, motions) = (state.all_links().into_owned(), held.clone(), motions.clone());
-        Self { links, held, motions, births: births.clone(), drains: drains.clone() }
+        let floor_plan = state.floor_plan.clone();
+        Self { links, held, motions, births: births.clone(), drains: drains.clone(), floor_plan }
     }
     /// Replaces the motions from now on.
     pub fn lead(&mut self, motions: Vec<Motion>) {
@@ -51,6 +55,7 @@ impl Ties {
     pub fn give(&self, state: &mut State) {
         (state.links, state.held) = (self.links.clone(), self.held.clone());
         (state.motions, state.births, state.drains) = (self.motions.clone(), self.births.clone(), self.drains.clone());
+        state.floor_plan.clone_from(&self.floor_plan);
     }
 }
 

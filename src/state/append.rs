@@ -14,8 +14,13 @@ impl State {
     ///
     /// # Errors
     /// [`Error::Scene`] when both have a column of one name and different kinds, or one gives a column that every particle must
-    /// be given, and the other does not.
+    /// be given, and the other does not; or when they have different floor plans.
     pub fn append(&mut self, other: &Self) -> Result<(), Error> {
+        if self.floor_plan.is_some() && other.floor_plan.is_some() && self.floor_plan != other.floor_plan {
+            return Err(Error::Scene(
+                "both states have a floor plan, and there is one at most: join their polygons".to_owned(),
+            ));
+        }
         let (before, added, had_ids) = (self.len(), other.len(), self.has_ids());
         let first = u32::try_from(before).unwrap_or(u32::MAX);
         let next = self.next_id();
@@ -64,6 +69,9 @@ impl State {
         };
         self.births.extend(other.births.iter().map(later));
         self.drains.extend_from_slice(&other.drains);
+        if self.floor_plan.is_none() {
+            self.floor_plan.clone_from(&other.floor_plan);
+        }
         Ok(())
     }
     /// The particles at these indices, each given once, in this order, with their ids; and the links, births, and fixed and kinematic

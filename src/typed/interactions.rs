@@ -423,6 +423,68 @@ typed! {
         /// What is evaluated: single particles.
         over: Cow<'static, str>,
     }
+    /// Pedestrians keep apart; where they touch they press and rub (Helbing, Farkas & Vicsek 2000).
+    SocialForce "social_force" social_force() {
+        /// The distance of centres up to which pedestrians act on each other \[length\].
+        range: f64,
+        /// A, the repulsion where discs touch without pressing \[mass length / time²\].
+        repulsion: f64,
+        /// B, the distance over which the repulsion falls by e \[length\].
+        decay: f64,
+        /// K, the body force per overlap \[mass / time²\].
+        stiffness: f64,
+        /// κ, the sliding friction per overlap and sliding velocity \[mass / (length time)\].
+        friction: f64,
+        /// λ, the part of the repulsion by pedestrians straight behind; 1: the same all round.
+        anisotropy: f64,
+        /// The species that it acts on, or "all".
+        species: Option<u32>,
+        /// How neighbours in range are found: by a cell list, by a neighbour list that is reused over steps, by the faster of both, or by brute force: near, list, auto, within.
+        over: Cow<'static, str>,
+        /// Over = "list" or "auto": the skin of the neighbour list beyond the range; 0: a fifth of the range \[length\].
+        skin: f64,
+    }
+    /// Pedestrians take up their desired speed, along a direction or to a target (Helbing & Molnár 1995).
+    Walk "walk" walk() {
+        /// Where pedestrians walk: along a direction, or to a target: direction, target.
+        to: Cow<'static, str>,
+        /// To = "direction": the direction, of any length.
+        direction: DVec3,
+        /// To = "target": the point at which they stop \[length\].
+        target: DVec3,
+        /// τ, the time in which a free pedestrian takes up the desired velocity \[time\].
+        relaxation_time: f64,
+        /// The species that it acts on, or "all".
+        species: Option<u32>,
+        /// What is evaluated: single particles.
+        over: Cow<'static, str>,
+    }
+    /// Pedestrians take up their desired speed along the shortest way to an exit of the plan (Helbing & Molnár 1995; Rouy & Tourin 1992).
+    Navigate "navigate" navigate() {
+        /// τ, the time in which a free pedestrian takes up the desired velocity \[time\].
+        relaxation_time: f64,
+        /// The species that it acts on, or "all".
+        species: Option<u32>,
+        /// What is evaluated: single particles.
+        over: Cow<'static, str>,
+    }
+    /// Walls of the plan that pedestrians keep away from, press and rub on, and never pass (Helbing, Farkas & Vicsek 2000).
+    SocialWall "social_wall" social_wall() {
+        /// The distance from a wall to centres up to which it acts \[length\].
+        range: f64,
+        /// A, the repulsion where discs touch without pressing \[mass length / time²\].
+        repulsion: f64,
+        /// B, the distance over which the repulsion falls by e \[length\].
+        decay: f64,
+        /// K, the body force per overlap \[mass / time²\].
+        stiffness: f64,
+        /// κ, the sliding friction per overlap and sliding velocity \[mass / (length time)\].
+        friction: f64,
+        /// The species that it acts on, or "all".
+        species: Option<u32>,
+        /// What is evaluated: single particles.
+        over: Cow<'static, str>,
+    }
     /// Springs and ropes, damped along their axis (Hooke 1678).
     Spring "spring" spring() {
         /// Which pairs are evaluated: those connected by a spring or a rope, which has its own length, stiffness and damping.

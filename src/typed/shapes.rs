@@ -343,6 +343,35 @@ typed! {
         /// The velocity of the whole \[length / time\].
         velocity: DVec3,
     }
+    /// Pedestrians at random in a rectangle, apart from each other, with radii and desired speeds from distributions (Weidmann 1993).
+    Crowd "crowd" crowd(count: u32, size: DVec3) {
+        /// Number of particles.
+        count: u32,
+        /// The sides of the rectangle, within which all discs are; z is not used \[length\].
+        size: DVec3,
+        /// Radii are uniform between this \[length\].
+        min_radius: f64,
+        /// And this \[length\].
+        max_radius: f64,
+        /// Mass of each pedestrian \[mass\].
+        mass: f64,
+        /// Desired speeds are normal with this mean \[length / time\].
+        mean_speed: f64,
+        /// And this standard deviation \[length / time\].
+        speed_spread: f64,
+        /// Within this \[length / time\].
+        min_speed: f64,
+        /// And this: speeds outside are drawn again \[length / time\].
+        max_speed: f64,
+        /// The least distance between discs \[length\].
+        gap: f64,
+        /// Seed of the random numbers.
+        seed: u64,
+        /// The position of the centre \[length\].
+        center: DVec3,
+        /// The velocity of the whole \[length / time\].
+        velocity: DVec3,
+    }
     /// Particles in a row, each connected to the next by springs, ropes or rods: pendulums, strings, beams.
     Chain "chain" chain(count: u32) {
         /// Number of particles, 2 or above.

@@ -99,6 +99,9 @@ fn gradient(name: &str, force: &[Box<dyn Component>], particles: &State, cusp: b
     }
 }
 
+/// Friction at the centres of pedestrians, which do not turn, is a torque on the whole.
+const NOT_CENTRAL: &str = "social_force";
+
 /// What pairs do to each other adds up to nothing: no force on the whole, no torque.
 #[test]
 fn action_is_reaction() {
@@ -121,6 +124,9 @@ fn action_is_reaction() {
         size += torques.iter().map(|torque| torque.length()).sum::<f64>();
         // 40 sums of 40 terms, each rounded by 1e-16.
         let allowed = 40.0 * f64::EPSILON * size;
+        if name.starts_with(NOT_CENTRAL) {
+            turn = DVec3::ZERO;
+        }
         assert!(push.length() < allowed && turn.length() < allowed, "{name}: {push} and {turn} of {size}");
         assert!(size > 1e-3, "{name} does nothing");
     });

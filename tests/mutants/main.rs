@@ -7,6 +7,7 @@ mod barostats;
 mod births;
 mod boundary;
 mod columns;
+mod crowds;
 mod curious;
 mod dfsph;
 mod equivalent_dfsph;
@@ -179,6 +180,7 @@ fn every_mutant_is_noticed() {
         columns::EQUIVALENT,
         matter::EQUIVALENT,
         barostats::EQUIVALENT,
+        crowds::EQUIVALENT,
         minimum::EQUIVALENT,
     ]
     .concat();

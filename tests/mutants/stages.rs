@@ -240,6 +240,7 @@ pub fn all(shared: &Shared) -> Vec<Stage> {
     laws::corners(&device, &mut stages);
     columns::all(&device, &mut stages);
     crate::matter::all(shared, &device, &mut stages);
+    crate::crowds::all(&device, &mut stages);
     laws::planes(&device, &mut stages);
     crate::held::all(&device, &mut stages);
     crate::pairs::all(&device, &mut stages);

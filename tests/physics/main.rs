@@ -9,6 +9,7 @@ mod births;
 mod bits;
 mod bodies;
 mod boundary;
+mod crowds;
 mod dfsph;
 mod ewald;
 mod flock;

@@ -9,13 +9,15 @@ use motes::settings::{Key, Kind, Pair, Settings, Value};
 
 /// Forces of several searches in a row, which take up what those before them left: they have tests of their own, in
 /// `tests/physics/fluids` and `tests/mutants/fluids.rs`. Walls have no laws, and history: `tests/physics/matter` and
-/// `tests/mutants/matter.rs`.
-const OWN: [&str; 2] = ["fluid", "contact_wall"];
+/// `tests/mutants/matter.rs`. Pedestrians on a plan: `tests/physics/crowds` and `tests/mutants/crowds.rs`.
+const OWN: [&str; 4] = ["fluid", "contact_wall", "navigate", "social_wall"];
 
-/// Forces that want other states than a cloud of points: atoms apart, spheres that touch. `tests/physics/matter`,
-/// `tests/physics/molecular` and `tests/mutants/matter.rs` have these.
-const STATED: [&str; 9] = [
+/// Forces that want other states than a cloud of points: atoms apart, spheres that touch, pedestrians. `tests/physics/matter`,
+/// `tests/physics/molecular`, `tests/physics/crowds`, `tests/mutants/matter.rs` and `tests/mutants/crowds.rs` have these.
+const STATED: [&str; 11] = [
     "contact",
+    "social_force",
+    "walk",
     "nose_hoover",
     "langevin",
     "andersen",

@@ -30,6 +30,7 @@ pub const SMALLER: &[(&str, &[&str])] = &[
     ("pile", FEW_GRAINS.split_at(3).0),
     ("hopper", FEW_GRAINS),
     ("column_collapse", FEW_BEADS),
+    ("room", &["particles.0.count=60"]),
     ("drum", &["particles.0.size=[0.03, 0.03, 0.04]", "particles.1.size=[0.03, 0.03, 0.04]"]),
 ];
 

@@ -1,0 +1,140 @@
+//! Remarks on crowds: steps that friction between pedestrians does not allow.
+
+use super::Remark;
+use super::steps::digits;
+use crate::crowds::Press;
+use crate::error::Error;
+use crate::simulation::Setup;
+
+/// Steps above this part of the stability limit are remarked on: sliding velocities change their sign in each of them.
+const ALTERNATING: f64 = 0.5;
+
+/// The fastest rate of a contact of two pedestrians that meet head on, each at the largest speed that there is.
+struct Fastest {
+    /// The largest overlap, at which all of the energy is in the body force \[length\].
+    overlap: f64,
+    /// What sets the rate.
+    what: &'static str,
+    /// The longest step at which it is stable \[time\].
+    dt: f64,
+}
+
+impl Fastest {
+    fn of(press: &Press, (mass, speed, radius): (f64, f64, f64)) -> Self {
+        let [pressing, rubbing] = [press.stiffness, press.friction].map(|x| 2.0 * x / mass);
+        // Half of a mass at twice the speed, against k g² / 2; discs overlap by no more than their radii.
+        let free = if pressing > 0.0 { 2.0 * speed / pressing.sqrt() } else { f64::INFINITY };
+        let overlap = free.min(2.0 * radius);
+        let steepness = pressing + 2.0 * press.repulsion / (press.decay * mass) * (overlap / press.decay).exp();
+        let friction = Self { overlap, what: "friction", dt: 2.0 / (rubbing * overlap) };
+        let push = Self { overlap, what: "repulsion", dt: 2.0 / steepness.sqrt() };
+        if friction.dt < push.dt { friction } else { push }
+    }
+}
+
+/// The remarks; none where no pedestrians press.
+///
+/// # Errors
+/// [`Error::Scene`] for steps in which contacts are unstable, and for particles or exits without a way.
+pub fn remarks(setup: &Setup) -> Result<Vec<Remark>, Error> {
+    ways(setup)?;
+    let (state, dt) = (&setup.state, setup.dt);
+    let presses = setup.forces.iter().filter_map(|force| force.properties().presses);
+    let column = |name: &str| state.scalar(name).unwrap_or_default().iter().copied();
+    // Of what is there at the start.
+    let mass = state.mass().iter().copied().filter(|mass| *mass > 0.0).fold(f64::INFINITY, f64::min);
+    let speeds = state.velocity().iter().map(|v| v.length()).chain(column("desired_speed"));
+    let extremes = (mass, speeds.fold(0.0, f64::max), column("radius").fold(0.0, f64::max));
+    let Some(fastest) = presses.map(|press| Fastest::of(&press, extremes)).min_by(|a, b| a.dt.total_cmp(&b.dt)) else {
+        return Ok(Vec::new());
+    };
+    if dt <= ALTERNATING * fastest.dt {
+        return Ok(Vec::new());
+    }
+    let Fastest { overlap, what, dt: limit } = fastest;
+    let text = format!(
+        "dt = {dt} is too long for the {what} of pedestrians: two that meet at {} each overlap by {}, and their {what} is stable up to dt = {}",
+        digits(extremes.1),
+        digits(overlap),
+        digits(limit)
+    );
+    let way =
+        format!("the largest dt that is safe is {}: set it, or choose a smaller `{what}`", digits(ALTERNATING * limit));
+    if dt > limit {
+        return Err(Error::Scene(format!("{text}: they would be thrown about, and through walls; {way}")));
+    }
+    let remark = Remark::warning("long-step", format!("{text}: sliding velocities change their sign in each step"));
+    Ok(vec![remark.with("dt", dt).with("largest_dt", ALTERNATING * limit).advice(way)])
+}
+
+/// Refuses pedestrians that have no way to an exit, and exits to which no way leads.
+fn ways(setup: &Setup) -> Result<(), Error> {
+    let (state, navigates) = (&setup.state, setup.forces.iter().any(|force| force.properties().navigates));
+    let Some(plan) = state.floor_plan.as_ref().filter(|_| navigates && state.step == 0) else { return Ok(()) };
+    let refuse = |text: String| Err(Error::Scene(text));
+    if plan.exits().is_empty() {
+        return refuse("the plan has no exit, so that no way leads out: add a LINESTRING on its floor".to_owned());
+    }
+    let cells = plan.cells();
+    let shut = plan.exits().iter().find(|exit| !cells.reaches(exit));
+    if let Some(exit) = shut {
+        let at = exit.path[0];
+        return refuse(format!(
+            "no way leads to the exit \"{}\" at {} {}: no cell of {} has its centre next to it in front of all walls; choose smaller cells, or \
+             move it",
+            exit.name,
+            at.x,
+            at.y,
+            plan.cell()
+        ));
+    }
+    let steps = cells.steps();
+    let lost = |x: &glam::DVec3| !cells.around(x.truncate()).into_iter().any(|k| steps[k].is_some());
+    let mut all = state.position().iter().enumerate().filter(|(i, x)| state.is_active(*i) && lost(x));
+    let Some((first, x)) = all.next() else { return Ok(()) };
+    refuse(format!(
+        "{} particles have no way to an exit, the first of them particle {first} at {} {}: open the wall that is between, or add an exit",
+        1 + all.count(),
+        x.x,
+        x.y
+    ))
+}
+
+#[cfg(test)]
+mod tests {
+    use glam::DVec3;
+
+    use super::*;
+    use crate::kernel::{Array, Bounds, Solver};
+    use crate::settings::{Settings, Value};
+    use crate::state::State;
+
+    fn setup(dt: f64, speed: f64, friction: f64) -> Setup {
+        let entry = crate::forces::entry("social_force").expect("it");
+        let settings = Settings::defaults(entry.keys).with("friction", Value::Number(friction));
+        let mut state = State::default();
+        for x in [0.0, 2.0] {
+            state.push(DVec3::X * x, DVec3::Y * speed, 80.0, 0.0);
+        }
+        state.declare(&crate::crowds::radius()).expect("a column");
+        state.set("radius", Array::Float(vec![0.3, 0.25])).expect("radii");
+        let integrator = crate::integrators::entry("leapfrog").expect("it").by_default();
+        let (bounds, solver) = (Bounds::default(), Solver::default());
+        Setup { state, forces: vec![(entry.build)(&settings)], integrator, dt, bounds, solver }
+    }
+
+    /// At 2 m/s each: g = 2 · 2 / √(2 · 1.2e5 / 80) = 0.0730 m, friction 2 κ g / m = 438 / s, so that steps of 2 / 438 = 4.56 ms are the limit,
+    /// and half of that is safe. Without friction repulsion is: ω² = 3000 + 2 · 2000 / (0.08 · 80) e^(0.0730 / 0.08) = 4557 / s², 2 / ω = 29.6 ms.
+    #[test]
+    fn steps_that_are_too_long_are_refused_with_the_longest() {
+        assert!(remarks(&setup(0.002, 2.0, 2.4e5)).expect("short").is_empty());
+        let warned = remarks(&setup(0.004, 2.0, 2.4e5)).expect("a warning");
+        let largest = warned[0].number("largest_dt").expect("a limit");
+        assert!(warned[0].id == "long-step" && (largest - 0.5 * 2.0 / 438.2).abs() < 2e-6, "{largest}");
+        let why = remarks(&setup(0.005, 2.0, 2.4e5)).expect_err("long").to_string();
+        assert!(why.contains("friction") && why.contains("dt = 0.00456") && why.contains("0.00228"), "{why}");
+        assert!(remarks(&setup(0.014, 2.0, 0.0)).expect("short").is_empty());
+        let why = remarks(&setup(0.03, 2.0, 0.0)).expect_err("long").to_string();
+        assert!(why.contains("repulsion") && why.contains("dt = 0.0296"), "{why}");
+    }
+}

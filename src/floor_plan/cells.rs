@@ -1,0 +1,203 @@
+//! The cells of a plan, on which ways to exits are found.
+
+use std::collections::VecDeque;
+
+use glam::DVec2;
+
+use super::{FloorPlan, wall::foot};
+
+/// The most cells of a plan: 16 million, whose two fields have 128 MB together.
+pub const MOST_CELLS: usize = 1 << 24;
+
+/// The four neighbours of a cell, as bits of [`Cells::open`]: to −x, +x, −y, +y.
+const WEST: u32 = 1;
+const EAST: u32 = 2;
+const SOUTH: u32 = 4;
+const NORTH: u32 = 8;
+/// The bit of a cell whose centre is on the floor.
+const FLOOR: u32 = 16;
+
+/// Within so many cells of an exit the distance to it is exact, where no wall is between.
+const EXACT: f64 = 2.5;
+
+/// Squares that cover a plan.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Cells {
+    /// The lowest corner \[length\].
+    pub low: DVec2,
+    /// The side of a cell \[length\].
+    pub side: f64,
+    /// The number along x and y.
+    pub count: [usize; 2],
+    /// Of each cell, x first: 1, 2, 4 and 8 where no wall is between its centre and that of the next one to −x, +x, −y, +y; 16 where its centre
+    /// is on the floor.
+    pub open: Vec<u32>,
+    /// The exact distance to an exit of cells next to it, from where its pedestrians have left \[length\].
+    pub known: Vec<Option<f64>>,
+}
+
+impl FloorPlan {
+    fn counts(&self) -> [f64; 2] {
+        let (low, high) = self.extent();
+        // Two more, so that what is outside has cells all around; walls at multiples of the side then lie between cells.
+        ((high - low) / self.cell() - 1e-9).ceil().to_array().map(|n| n + 2.0)
+    }
+    /// The number of its cells.
+    #[must_use]
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "checked to be few")]
+    pub fn cell_count(&self) -> usize {
+        self.counts().map(|n| n as usize).iter().product()
+    }
+    pub(super) fn cells_fit(&self) -> Result<(), String> {
+        let [nx, ny] = self.counts();
+        #[expect(clippy::cast_precision_loss, reason = "a bound")]
+        let most = MOST_CELLS as f64;
+        if !(self.cell() > 0.0 && nx * ny <= most) {
+            return Err(format!(
+                "its cells of {} are {nx} by {ny}, and the most is {MOST_CELLS}: choose larger cells",
+                self.cell()
+            ));
+        }
+        Ok(())
+    }
+    /// Where walls cross the line at a height, in order: the floor is between the first and the second, and so on.
+    fn crossings(&self, y: f64) -> Vec<f64> {
+        let crossed = self.segments().iter().filter(|wall| (wall.a.y <= y) != (wall.b.y <= y));
+        let at = |wall: &super::Segment| wall.a.x + (y - wall.a.y) / (wall.b.y - wall.a.y) * (wall.b.x - wall.a.x);
+        let mut all: Vec<f64> = crossed.map(at).collect();
+        all.sort_by(f64::total_cmp);
+        all
+    }
+    /// Its cells.
+    #[must_use]
+    pub fn cells(&self) -> Cells {
+        let side = self.cell();
+        let (low, high) = self.extent();
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "checked to be few")]
+        let count = self.counts().map(|n| n as usize);
+        #[expect(clippy::cast_precision_loss, reason = "few")]
+        let half = 0.5 * side * DVec2::new(count[0] as f64, count[1] as f64);
+        let [nx, ny] = count;
+        let mut cells =
+            Cells { low: 0.5 * (low + high) - half, side, count, open: vec![0; nx * ny], known: vec![None; nx * ny] };
+        for y in 0..ny {
+            let crossings = self.crossings(cells.centre(0, y).y);
+            for x in 0..nx {
+                let centre = cells.centre(x, y);
+                let next = [(x > 0, WEST), (x + 1 < nx, EAST), (y > 0, SOUTH), (y + 1 < ny, NORTH)];
+                let inside = next.iter().filter(|(is, _)| *is).fold(0, |all, (_, bit)| all | bit);
+                let floor = crossings.partition_point(|at| *at <= centre.x) % 2 == 1;
+                cells.open[y * nx + x] = inside | if floor { FLOOR } else { 0 };
+            }
+        }
+        self.segments().iter().for_each(|wall| cells.close(wall.a, wall.b));
+        for (k, known) in cells.known.iter_mut().enumerate() {
+            let centre = centre(cells.low, side, k % nx, k / nx);
+            let nearest = self.exits().iter().map(|exit| (exit.distance(centre) - exit.reach, exit));
+            let Some((distance, exit)) = nearest.min_by(|a, b| a.0.total_cmp(&b.0)) else { continue };
+            if cells.open[k] & FLOOR > 0 && distance <= EXACT * side {
+                let feet = exit.pieces().map(|[a, b]| foot(a, b, centre).0);
+                let foot = feet.min_by(|a, b| a.distance(centre).total_cmp(&b.distance(centre)));
+                if foot.is_some_and(|foot| self.between(centre, foot).is_none()) {
+                    *known = Some(distance.max(0.0));
+                }
+            }
+        }
+        cells
+    }
+}
+
+#[expect(clippy::cast_precision_loss, reason = "few")]
+fn centre(low: DVec2, side: f64, x: usize, y: usize) -> DVec2 {
+    low + side * DVec2::new(x as f64 + 0.5, y as f64 + 0.5)
+}
+
+impl Cells {
+    /// The centre of a cell \[length\].
+    #[must_use]
+    pub fn centre(&self, x: usize, y: usize) -> DVec2 {
+        centre(self.low, self.side, x, y)
+    }
+    /// Closes the ways between centres that a wall crosses.
+    fn close(&mut self, a: DVec2, b: DVec2) {
+        let [nx, ny] = self.count;
+        let [a, b] = [a, b].map(|x| (x - self.low) / self.side - 0.5);
+        let mut shut = |x: Option<usize>, y: Option<usize>, bit: u32| {
+            if let (Some(x), Some(y)) = (x.filter(|x| *x < nx), y.filter(|y| *y < ny)) {
+                self.open[y * nx + x] &= !bit;
+            }
+        };
+        for row in lines(a.y, b.y, ny) {
+            let x = whole(a.x + (row.1 - a.y) / (b.y - a.y) * (b.x - a.x));
+            shut(usize::try_from(x).ok(), Some(row.0), EAST);
+            shut(usize::try_from(x + 1).ok(), Some(row.0), WEST);
+        }
+        for column in lines(a.x, b.x, nx) {
+            let y = whole(a.y + (column.1 - a.x) / (b.x - a.x) * (b.y - a.y));
+            shut(Some(column.0), usize::try_from(y).ok(), NORTH);
+            shut(Some(column.0), usize::try_from(y + 1).ok(), SOUTH);
+        }
+    }
+    /// Whether a cell next to an exit is in front of all walls.
+    #[must_use]
+    pub fn reaches(&self, exit: &super::Exit) -> bool {
+        let [nx, _] = self.count;
+        let near = |(k, known): (usize, &Option<f64>)| {
+            known.is_some() && exit.distance(self.centre(k % nx, k / nx)) - exit.reach <= EXACT * self.side
+        };
+        self.known.iter().enumerate().any(near)
+    }
+    /// The four cells whose centres are around a point.
+    #[must_use]
+    pub fn around(&self, x: DVec2) -> [usize; 4] {
+        let [nx, ny] = self.count;
+        let place = (x - self.low) / self.side - 0.5;
+        #[expect(clippy::cast_precision_loss, reason = "few")]
+        let most = DVec2::new(nx as f64 - 2.0, ny as f64 - 2.0);
+        let first = place.floor().clamp(DVec2::ZERO, most);
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "clamped to cells")]
+        let corner = first.y as usize * nx + first.x as usize;
+        [corner, corner + 1, corner + nx, corner + nx + 1]
+    }
+    /// The numbers of steps from exits to each cell, along open ways; `None` where there is no way.
+    #[must_use]
+    pub fn steps(&self) -> Vec<Option<u32>> {
+        let mut steps: Vec<Option<u32>> = self.known.iter().map(|known| known.map(|_| 0)).collect();
+        let mut edge: VecDeque<usize> = (0..steps.len()).filter(|k| steps[*k].is_some()).collect();
+        while let Some(k) = edge.pop_front() {
+            let further = steps[k].map(|n| n + 1);
+            for next in self.next(k).into_iter().flatten() {
+                if steps[next].is_none() {
+                    steps[next] = further;
+                    edge.push_back(next);
+                }
+            }
+        }
+        steps
+    }
+    /// The neighbours of a cell to −x, +x, −y, +y, where both are on the floor and no wall is between.
+    #[must_use]
+    pub fn next(&self, k: usize) -> [Option<usize>; 4] {
+        let nx = self.count[0];
+        let all = [k.wrapping_sub(1), k + 1, k.wrapping_sub(nx), k + nx];
+        let mut bits = [WEST, EAST, SOUTH, NORTH].into_iter();
+        let floor = |k: usize| self.open[k] & FLOOR > 0;
+        all.map(|next| bits.next().filter(|bit| self.open[k] & bit > 0 && floor(k) && floor(next)).map(|_| next))
+    }
+}
+
+/// The whole numbers from 0 below `most` between two numbers, the lower one included.
+fn lines(a: f64, b: f64, most: usize) -> impl Iterator<Item = (usize, f64)> {
+    let (low, high) = (a.min(b), a.max(b));
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, clippy::cast_precision_loss, reason = "few")]
+    let [from, to] = [low, high].map(|x| x.ceil().clamp(0.0, most as f64) as usize);
+    #[expect(clippy::cast_precision_loss, reason = "few")]
+    let with = |n: usize| (n, n as f64);
+    (from..to).map(with)
+}
+
+/// A number rounded down.
+#[expect(clippy::cast_possible_truncation, reason = "few")]
+fn whole(x: f64) -> i64 {
+    x.floor() as i64
+}

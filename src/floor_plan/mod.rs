@@ -1,0 +1,176 @@
+//! Floor plans: where pedestrians may be, what is a wall, and where they leave. A plan is one or more polygons with holes, in a plane; its
+//! walls are their sides.
+
+mod cells;
+mod ring;
+mod wall;
+
+pub use cells::{Cells, MOST_CELLS};
+pub use wall::{MOST_SEGMENTS, Nearest, Segment};
+
+use glam::DVec2;
+
+use crate::life::Drain;
+use crate::solids::{Solid, Standing};
+use ring::Ring;
+
+/// A polygon: its outline, and the outlines of its holes, without repeated last points \[length\].
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Polygon {
+    /// The outline, in any direction.
+    pub outline: Vec<DVec2>,
+    /// The holes, in any direction.
+    pub holes: Vec<Vec<DVec2>>,
+}
+
+/// An exit: a line that pedestrians leave at.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Exit {
+    /// Its name.
+    pub name: String,
+    /// The points of the line, two or more \[length\].
+    pub path: Vec<DVec2>,
+    /// The distance from the line at which a pedestrian has left \[length\].
+    pub reach: f64,
+}
+
+impl Exit {
+    /// The distance of a point from the line \[length\].
+    #[must_use]
+    pub fn distance(&self, x: DVec2) -> f64 {
+        self.pieces().map(|[a, b]| (x - wall::foot(a, b, x).0).length()).fold(f64::INFINITY, f64::min)
+    }
+    /// Its length \[length\].
+    #[must_use]
+    pub fn width(&self) -> f64 {
+        self.pieces().map(|[a, b]| (b - a).length()).sum()
+    }
+    /// The pieces of the line.
+    pub fn pieces(&self) -> impl Iterator<Item = [DVec2; 2]> + '_ {
+        self.path.windows(2).map(|pair| [pair[0], pair[1]])
+    }
+}
+
+/// A floor plan, checked.
+#[derive(Debug, Clone, PartialEq)]
+pub struct FloorPlan {
+    rings: Vec<Ring>,
+    segments: Vec<Segment>,
+    exits: Vec<Exit>,
+    cell: f64,
+}
+
+impl FloorPlan {
+    /// A plan of polygons that do not meet, with exits, and cells of this side for the ways to them \[length\].
+    ///
+    /// # Errors
+    /// A sentence with the place: outlines of fewer than three points, without area or that cross themselves or each other, holes outside,
+    /// exits off the floor, numbers that are not finite, more walls than [`MOST_SEGMENTS`] or more cells than [`MOST_CELLS`].
+    pub fn new(polygons: &[Polygon], exits: Vec<Exit>, cell: f64) -> Result<Self, String> {
+        let mut rings = Vec::new();
+        for (polygon, number) in polygons.iter().zip(1..) {
+            let name = if polygons.len() > 1 { format!("polygon {number}") } else { "the floor".to_owned() };
+            let outline = Ring::new(&polygon.outline, false, &name)?;
+            for (hole, place) in polygon.holes.iter().zip(1..) {
+                let hole = Ring::new(hole, true, &format!("hole {place} of {name}"))?;
+                if let Some(out) = hole.points.iter().find(|x| !outline.holds(**x)) {
+                    return Err(format!("{} has the point {} {} outside of the outline", hole.name, out.x, out.y));
+                }
+                rings.push(hole);
+            }
+            rings.push(outline);
+        }
+        if rings.is_empty() {
+            return Err("there is no floor: it needs a POLYGON or a MULTIPOLYGON".to_owned());
+        }
+        let count: usize = rings.iter().map(|ring| ring.points.len()).sum();
+        if count > MOST_SEGMENTS {
+            return Err(format!(
+                "it has {count} walls, and the most is {MOST_SEGMENTS}: leave out details below a pedestrian's radius"
+            ));
+        }
+        ring::apart(&rings)?;
+        let segments = wall::segments(&rings);
+        let plan = Self { rings, segments, exits, cell };
+        plan.exits.iter().try_for_each(|exit| plan.reaches(exit))?;
+        plan.cells_fit()?;
+        Ok(plan)
+    }
+    /// The walls, those of one wall in a row.
+    #[must_use]
+    pub fn segments(&self) -> &[Segment] {
+        &self.segments
+    }
+    /// The exits.
+    #[must_use]
+    pub fn exits(&self) -> &[Exit] {
+        &self.exits
+    }
+    /// The side of a cell \[length\].
+    #[must_use]
+    pub fn cell(&self) -> f64 {
+        self.cell
+    }
+    /// The lowest and the highest corner \[length\].
+    #[must_use]
+    pub fn extent(&self) -> (DVec2, DVec2) {
+        let points = || self.rings.iter().flat_map(|ring| &ring.points).copied();
+        (points().reduce(DVec2::min).unwrap_or_default(), points().reduce(DVec2::max).unwrap_or_default())
+    }
+    /// Whether a point is on the floor.
+    #[must_use]
+    pub fn holds(&self, x: DVec2) -> bool {
+        self.rings.iter().filter(|ring| ring.holds(x)).count() % 2 == 1
+    }
+    /// The first wall between two points, if there is one.
+    #[must_use]
+    pub fn between(&self, a: DVec2, b: DVec2) -> Option<&Segment> {
+        self.segments.iter().find(|wall| wall.crosses(a, b))
+    }
+    /// The distance to the nearest wall \[length\].
+    #[must_use]
+    pub fn distance(&self, x: DVec2) -> f64 {
+        self.segments.iter().map(|wall| (x - wall::foot(wall.a, wall.b, x).0).length()).fold(f64::INFINITY, f64::min)
+    }
+    /// Its walls, for pictures: capsules whose radius is a three-hundredth of the plan.
+    #[must_use]
+    pub fn standing(&self) -> Vec<Standing> {
+        let (low, high) = self.extent();
+        let radius = (high - low).max_element() / 300.0;
+        let wall = |one: &Segment| Standing {
+            solid: Solid::Capsule((one.b - one.a).extend(0.0), radius),
+            position: (0.5 * (one.a + one.b)).extend(0.0),
+            motion: String::new(),
+            inside: false,
+        };
+        self.segments.iter().map(wall).collect()
+    }
+    /// The drains at its exits, which remove pedestrians that have left.
+    #[must_use]
+    pub fn drains(&self) -> Vec<Drain> {
+        let drain = |exit: &Exit, [a, b]: [DVec2; 2]| Drain {
+            solid: Solid::Capsule((b - a).extend(0.0), exit.reach),
+            position: (0.5 * (a + b)).extend(0.0),
+            outside: false,
+            species: None,
+        };
+        self.exits.iter().flat_map(|exit| exit.pieces().map(move |piece| drain(exit, piece))).collect()
+    }
+    fn reaches(&self, exit: &Exit) -> Result<(), String> {
+        let name = &exit.name;
+        if exit.path.len() < 2 || exit.width() <= 0.0 {
+            return Err(format!("the exit \"{name}\" has no length: it needs two points at least"));
+        }
+        if let Some(bad) = exit.path.iter().find(|x| !x.is_finite()) {
+            return Err(format!("the exit \"{name}\" has the point {} {}, which is not finite", bad.x, bad.y));
+        }
+        let middle = exit.pieces().map(|[a, b]| 0.5 * (a + b));
+        match middle.into_iter().find(|x| !self.holds(*x)) {
+            Some(x) => Err(format!(
+                "the exit \"{name}\" is not on the floor at {} {}: draw its line inside of the POLYGON, where pedestrians are to leave",
+                x.x, x.y
+            )),
+            None => Ok(()),
+        }
+    }
+}
