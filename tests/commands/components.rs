@@ -62,9 +62,10 @@ fn particles(name: &str) -> &'static str {
         "vicsek" => {
             "[box]\nsize = [2, 2, 0]\ndimensions = 2\n[[particles]]\nshape = \"box\"\ncount = 40\nsize = [2, 2, 0]\nspeed = 0.5\n"
         }
-        "social_force" | "walk" => {
-            "[[particles]]\nshape = \"lattice\"\nsize = [3, 3, 1]\nspacing = 1\nmass = 80\nradius = 0.3\ndesired_speed = 1.3\n"
+        "social_force" => {
+            "[[particles]]\nshape = \"lattice\"\nsize = [3, 3, 1]\nspacing = 1\nmass = 80\nradius = 0.3\n"
         }
+        "walk" => "[[particles]]\nshape = \"lattice\"\nsize = [3, 3, 1]\nspacing = 1\ndesired_speed = 1.3\n",
         "navigate" | "social_wall" => {
             "[box]\nsize = [20, 20, 0]\nboundary = \"open\"\n[plan]\nfile = \"room.wkt\"\n[[particles]]\nshape = \"crowd\"\ncount = 9\nsize = [5, 5, 0]\ncenter = [5, 5, 0]\n"
         }

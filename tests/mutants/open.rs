@@ -16,4 +16,12 @@ pub const OPEN: &[Open] = &[
     // No stage has a tree with free rows behind the particles; `tests/physics/births/spawn.rs` has.
     open("shaders/visit/tree_nodes.wgsl", 1),
     open("shaders/sph/dfsph/listed.wgsl", 1),
+    // One floor and one crowd: no pedestrian stands exactly on an edge, and most cells around one are open.
+    open("shaders/crowds/begin.wgsl", 2),
+    open("shaders/crowds/exits.wgsl", 1),
+    open("shaders/crowds/inside.wgsl", 1),
+    open("shaders/crowds/keep.wgsl", 11),
+    open("shaders/crowds/ways.wgsl", 48),
+    open("shaders/interactions/navigate.wgsl", 29),
+    open("shaders/interactions/social_wall.wgsl", 20),
 ];

@@ -103,6 +103,14 @@ fn friction_takes_energy_from_every_pair() {
         let power: f64 =
             a.iter().zip(people.velocity()).zip(people.mass()).map(|((a, v), m)| m * a.truncate().dot(*v)).sum();
         assert!(power < -1e3, "seed {seed}: {power}");
+        // Equal and opposite forces add up to nothing: 60 sums of 60 terms, each rounded by 1e-16. With λ = 0.5 they do not.
+        let sum = |anisotropy: f64| {
+            let a = accelerations(&[social(&[("anisotropy", anisotropy)])], &people, 0.0);
+            let forces: Vec<DVec3> = a.iter().zip(people.mass()).map(|(a, m)| *m * a.truncate()).collect();
+            let size: f64 = forces.iter().map(|force| force.length()).sum();
+            forces.iter().sum::<DVec3>().length() / size
+        };
+        assert!(sum(1.0) < 60.0 * f64::EPSILON && sum(0.5) > 1e-6, "seed {seed}: {} {}", sum(1.0), sum(0.5));
     }
     assert!(gains[0] == 0 && gains[1] == 1500 && gains[2] > 300, "{gains:?}");
 }
