@@ -14,7 +14,10 @@ fn particle_of(index: u32, row: vec4f, low: vec3f) -> Particle { return Particle
 fn low_words_of(index: u32) -> vec3f { return position_low[index].xyz; }
 
 // The difference of two positions: that of the first words, which is exact for near particles (Sterbenz 1974), and that of the second ones,
-// added before anything is rounded at the size of a coordinate.
-fn refined(r: vec3f, me: Particle, you: Particle) -> vec3f { return r + (you.low - me.low); }
+// added before anything is rounded at the size of a coordinate. The first one passes through a zero that compilers cannot know: they might
+// add the words of each position before.
+fn refined(r: vec3f, me: Particle, you: Particle) -> vec3f {
+    return bitcast<vec3f>(bitcast<vec3u>(r) ^ vec3u(world.zero)) + (you.low - me.low);
+}
 
 fn velocity_of(particle: Particle) -> vec3f { return velocity[particle.index].xyz; }

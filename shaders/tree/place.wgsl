@@ -10,6 +10,8 @@ fn place(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: v
     let i = folded(group, groups) * WORKGROUP + lane;
     if i < world.count {
         let x = position[i];
-        tree_place[i] = vec4f((x.xyz - tree_origin[0].xyz) + position_low[i].xyz, x.w);
+        // Through a zero that compilers cannot know: they might add the words of the position before.
+        let away = bitcast<vec3f>(bitcast<vec3u>(x.xyz - tree_origin[0].xyz) ^ vec3u(world.zero));
+        tree_place[i] = vec4f(away + position_low[i].xyz, x.w);
     }
 }

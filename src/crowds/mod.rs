@@ -48,7 +48,7 @@ pub fn desired_speed() -> Column {
 /// The floor plan of a problem, which a component needs.
 pub(crate) fn plan_of<'a>(problem: &'a Problem, component: &str) -> Result<&'a FloorPlan, Error> {
     problem.floor_plan.as_deref().ok_or_else(|| {
-        Error::Scene(format!("{component} needs a floor plan, and there is none: add [plan] with a `file`"))
+        Error::Scene(format!("{component} needs a floor plan, and there is none: add [plan] with a `file` or `wkt`"))
     })
 }
 

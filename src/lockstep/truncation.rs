@@ -6,7 +6,7 @@ use crate::error::Error;
 use crate::forces::{Component, Problem};
 use crate::gpu::Gpu;
 use crate::integrators::Step;
-use crate::kernel::{ACCELERATION, Array, Backend, Host, Plan};
+use crate::kernel::{ACCELERATION, Array, Backend, Host, POSITION, POSITION_LOW, Plan, Precision};
 
 use super::fields;
 
@@ -59,6 +59,10 @@ pub async fn truncation(
         let count = device.len();
         let wanted = targets.clamp(1, count.max(1));
         let ids: Vec<usize> = (0..wanted.min(count)).map(|k| k * count / wanted).collect();
+        if problem.precision == Precision::DoubleSingle {
+            let low = host.read(POSITION_LOW)?.to_vec();
+            host.write(POSITION)?.iter_mut().zip(low).for_each(|(x, rest)| *x += rest.with_w(0.0));
+        }
         let exact: Vec<_> = sample(&host, &ids)?.into_iter().zip(&ids).map(|(a, id)| a + beside[*id]).collect();
         let device: Vec<_> = ids.iter().map(|id| device[*id]).collect();
         let walked: Vec<_> = ids.iter().map(|id| walked[*id] + beside[*id]).collect();

@@ -1,4 +1,4 @@
-//! `[plan]`: a floor plan, from a file of well-known text.
+//! `[plan]`: a floor plan in well-known text, which a file or the scene itself holds.
 
 use crate::floor_plan::{Exit, FloorPlan};
 use crate::formats::floor_plan;
@@ -11,7 +11,7 @@ use super::tree::{Data, Entry};
 use super::value;
 use super::walk::Table;
 
-pub(super) const OWN: &[&str] = &["file", "exits"];
+pub(super) const OWN: &[&str] = &["file", "wkt", "exits"];
 
 /// The keys of the section.
 pub const PLAN_KEYS: &[Key] = &[
@@ -39,23 +39,37 @@ pub(super) fn read(
     let table = table?;
     let faults = report.len();
     let settings = table.settings(PLAN_KEYS, OWN, report);
-    let Some(entry) = table.get("file") else {
-        report.push(table.lacks("file", "the name of a file", "the plan, as well-known text"));
-        return None;
+    let (entry, inside) = match (table.get("file"), table.get("wkt")) {
+        (Some(entry), None) => (entry, false),
+        (None, Some(entry)) => (entry, true),
+        (Some(_), Some(entry)) => {
+            let fault = Fault::at(&entry.place, "the plan is given twice, as `file` and as `wkt`".to_owned());
+            report.push(fault.label("leave one of them out"));
+            return None;
+        }
+        (None, None) => {
+            report.push(table.lacks("file", "the name of a file, or `wkt`", "the plan, as well-known text"));
+            return None;
+        }
     };
     if dimensions != 2 {
         let fault = Fault::at(table.place, "a plan is flat, and this scene has 3 dimensions".to_owned());
         report.push(fault.label("say dimensions = 2 in [box]"));
     }
     let names = table.get("exits").and_then(|entry| names(entry, report));
-    let name = value::text(&entry.node, "file", "the name of a file", report)?;
     let place = &entry.node.place;
-    let located = files.locate("file", name, place).and_then(|file| Ok((file.plan(place)?, file)));
-    let (text, file) = match located {
-        Ok(found) => found,
-        Err(fault) => {
-            report.push(fault);
-            return None;
+    let (text, [key, said]) = if inside {
+        let text = value::text(&entry.node, "wkt", "well-known text", report)?;
+        (text.to_owned(), ["wkt", text].map(str::to_owned))
+    } else {
+        let name = value::text(&entry.node, "file", "the name of a file", report)?;
+        let located = files.locate("file", name, place).and_then(|file| Ok((file.plan(place)?, file)));
+        match located {
+            Ok((text, file)) => (text, ["file", file.name()].map(str::to_owned)),
+            Err(fault) => {
+                report.push(fault);
+                return None;
+            }
         }
     };
     let bad = |why: String| Fault::at(place, why).in_input();
@@ -81,7 +95,7 @@ pub(super) fn read(
     };
     let exits: Vec<Exit> = drawn.exits.into_iter().zip(1..).map(named).collect();
     out.header("[plan]");
-    out.text("file", file.name());
+    out.text(&key, &said);
     if let Some(names) = &given {
         let list: Vec<_> = names.iter().map(|name| format!("{name:?}")).collect();
         out.line("exits", &format!("[{}]", list.join(", ")));

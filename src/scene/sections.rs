@@ -101,11 +101,13 @@ impl Section {
     const fn new(name: &'static str, many: bool, keys: &'static [Key]) -> Self {
         Self { name, about: "", many, keys, own: &[], kinds: Vec::new }
     }
+    /// Whether every form of the section may have this key.
+    pub(super) fn has(&self, key: &str) -> bool {
+        self.own.iter().any(|own| own.name == key) || self.keys.iter().any(|k| k.name == key)
+    }
     /// Whether some form of the section has this key.
     pub(super) fn knows(&self, key: &str) -> bool {
-        self.own.iter().any(|own| own.name == key)
-            || self.keys.iter().any(|k| k.name == key)
-            || (self.kinds)().iter().any(|keys| keys.iter().any(|k| k.name == key))
+        self.has(key) || (self.kinds)().iter().any(|keys| keys.iter().any(|k| k.name == key))
     }
     /// Its header in a scene.
     #[must_use]

@@ -110,8 +110,9 @@ impl State {
         }
         self.origin(other);
         let origin = std::mem::take(&mut self.kept);
-        // Files hold no life column where all particles are active.
-        if other.get(LIFE.name).is_none() && self.get(LIFE.name).is_some() {
+        // Files hold no life column where all particles are active, and states of runs in which some come or go do.
+        let has_life = self.get(LIFE.name).is_some() || !self.births.is_empty() || !self.drains.is_empty();
+        if other.get(LIFE.name).is_none() && has_life {
             self.set(LIFE.name, Array::Uint(vec![Life::Active.word(); self.len()]))?;
         }
         for (column, values) in other.columns() {

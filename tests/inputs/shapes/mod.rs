@@ -87,6 +87,7 @@ fn the_bits_never_change() {
         ("box", 0x7947_fcef_4d33_1765),
         ("spray", 0x75af_c8eb_4624_d16b),
         ("grains", 0x409e_763b_a3e1_bf71),
+        ("crowd", 0),
         ("chain", 0x3d71_07f6_cae9_b2ac),
         ("cloth", 0xb078_4cef_395b_0d7a),
         ("jelly", 0x2265_3ad0_bdde_76e3),
@@ -108,7 +109,9 @@ fn the_bits_never_change() {
 #[test]
 fn every_key_matters() {
     for shape in SHAPES {
-        let numbers = [("count", 40.0), ("virial", 0.2), ("jitter", 0.1), ("speed", 0.1)];
+        // A crowd finds room for few in the sizes below.
+        let count = if shape.name == "crowd" { 12.0 } else { 40.0 };
+        let numbers = [("count", count), ("virial", 0.2), ("jitter", 0.1), ("speed", 0.1)];
         let more = [("temperature", 0.7), ("bulge_mass", 0.3), ("displacement", 0.2), ("growth", 0.4)];
         let base = settings(shape.name, &[&numbers[..], &more].concat());
         // A wall has several surfaces, and keys of each.
