@@ -61,8 +61,8 @@ impl<'a> Table<'a> {
             (None, Some(near)) => fault.label(format!("did you mean `{near}`?")),
             (None, None) => {
                 let own = SECTIONS.iter().find(|section| self.name.starts_with(&section.header()));
-                // Rather one that always has it than one of which some kind does.
-                let home = SECTIONS.iter().find(|section| section.has(&entry.key));
+                // Rather a section that is there once, and has it, than one of which some kind does.
+                let home = SECTIONS.iter().find(|section| !section.many && section.has(&entry.key));
                 let home = home.or_else(|| SECTIONS.iter().find(|section| section.knows(&entry.key)));
                 // Another shape, say, may have the key.
                 match home.filter(|_| !own.is_some_and(|own| own.knows(&entry.key))) {

@@ -114,7 +114,13 @@ fn noticed(stages: &[&Stage], file: &File, listed: &[bool], whole: bool) -> Vec<
     // One that lives among others is tried alone.
     alive.retain(|mutant| stages.iter().all(|(_, stage)| !unnoticed(stage, file, &[*mutant]).is_empty()));
     let asked = if whole { stages.len() } else { stages.len().min(ASKED) };
-    alive.extend(stages[..asked].iter().fold(known, |alive, (_, stage)| unnoticed(stage, file, &alive)));
+    // A device that is slow errs: what is listed and noticed is asked about again, alone.
+    let again = |alive: Vec<usize>, stage: &Stage| -> Vec<usize> {
+        let rest = unnoticed(stage, file, &alive);
+        let lives = |mutant: &usize| rest.contains(mutant) || !unnoticed(stage, file, &[*mutant]).is_empty();
+        alive.into_iter().filter(lives).collect()
+    };
+    alive.extend(stages[..asked].iter().fold(known, |alive, (_, stage)| again(alive, stage)));
     (0..listed.len()).map(|mutant| !alive.contains(&mutant)).collect()
 }
 

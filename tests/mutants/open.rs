@@ -16,12 +16,13 @@ pub const OPEN: &[Open] = &[
     // No stage has a tree with free rows behind the particles; `tests/physics/births/spawn.rs` has.
     open("shaders/visit/tree_nodes.wgsl", 1),
     open("shaders/sph/dfsph/listed.wgsl", 1),
-    // One floor and one crowd: no pedestrian stands exactly on an edge, and most cells around one are open.
+    // One floor and one crowd: no pedestrian stands exactly on an edge, and most cells around one are open. Cells without a way hold 1e9, beside which
+    // errors of distances are nothing to the comparison with the reference; `tests/physics/crowds/plans.rs` compares distances.
     open("shaders/crowds/begin.wgsl", 2),
     open("shaders/crowds/exits.wgsl", 1),
     open("shaders/crowds/inside.wgsl", 1),
     open("shaders/crowds/keep.wgsl", 11),
-    open("shaders/crowds/ways.wgsl", 48),
+    open("shaders/crowds/ways.wgsl", 57),
     open("shaders/interactions/navigate.wgsl", 29),
     open("shaders/interactions/social_wall.wgsl", 20),
 ];
