@@ -114,9 +114,11 @@ fn every_key_matters() {
         let numbers = [("count", 40.0), ("virial", 0.2), ("jitter", 0.1), ("speed", 0.1)];
         let more = [("temperature", 0.7), ("bulge_mass", 0.3), ("displacement", 0.2), ("growth", 0.4)];
         let base = settings(shape.name, &[&numbers[..], &more].concat());
-        // A crowd is flat, and needs room.
+        // A crowd is flat and needs room, so many that some meet, and speeds that reach their limits.
         let crowd = shape.name == "crowd";
-        let base = if crowd { base.with("size", Value::Vector(DVec3::new(12.0, 12.0, 0.0))) } else { base };
+        let wide = |base: Settings| base.with("size", Value::Vector(DVec3::new(12.0, 12.0, 0.0)));
+        let many = |base: Settings| base.with("count", Value::Number(120.0)).with("speed_spread", Value::Number(1.0));
+        let base = if crowd { many(wide(base)) } else { base };
         // A wall has several surfaces, and keys of each.
         let mesh = |text: &str| Value::Text(text.to_owned().into());
         let triangle =
