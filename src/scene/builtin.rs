@@ -19,14 +19,9 @@ impl Builtin {
     }
 }
 
-/// Names of scenes, each with the names of its files in brackets, if it has any.
 macro_rules! scenes {
-    ($($name:literal $([$($file:literal),*])?),* $(,)?) => {
-        &[$(Builtin {
-            name: $name,
-            text: include_str!(concat!("../../scenes/", $name, ".toml")),
-            files: &[$($(($file, include_str!(concat!("../../scenes/", $file)))),*)?],
-        }),*]
+    ($($name:literal),* $(,)?) => {
+        &[$(Builtin { name: $name, text: include_str!(concat!("../../scenes/", $name, ".toml")), files: &[] }),*]
     };
 }
 
@@ -71,5 +66,5 @@ pub const SCENES: &[Builtin] = scenes![
     "hopper",
     "column_collapse",
     "drum",
-    "room"["room.wkt"],
+    "room",
 ];

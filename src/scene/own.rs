@@ -33,10 +33,11 @@ pub(super) const BOX: &[Own] = &[
 pub(super) const PLAN: &[Own] = &[
     own(
         "file",
-        "must be given",
-        "the plan as well-known text: POLYGONs are the floor, each LINESTRING on it is an exit",
+        "or wkt",
+        "a file with the plan as well-known text: POLYGONs are the floor, each LINESTRING on it is an exit",
     ),
-    own("exits", "exit 1, exit 2, …", "the names of exits, in their order in the file"),
+    own("wkt", "or file", "that text itself"),
+    own("exits", "exit 1, exit 2, …", "the names of exits, in their order in the plan"),
 ];
 pub(super) const MOTION: &[Own] = &[
     own("name", "must be given", "the name by which particles and obstacles refer to it"),

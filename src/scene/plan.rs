@@ -1,4 +1,4 @@
-//! `[plan]`: a floor plan, from a file of well-known text.
+//! `[plan]`: a floor plan as well-known text, in a file or written out.
 
 use crate::floor_plan::{Exit, FloorPlan};
 use crate::formats::floor_plan;
@@ -11,7 +11,7 @@ use super::tree::{Data, Entry};
 use super::value;
 use super::walk::Table;
 
-pub(super) const OWN: &[&str] = &["file", "exits"];
+pub(super) const OWN: &[&str] = &["file", "wkt", "exits"];
 
 /// The keys of the section.
 pub const PLAN_KEYS: &[Key] = &[
@@ -39,26 +39,27 @@ pub(super) fn read(
     let table = table?;
     let faults = report.len();
     let settings = table.settings(PLAN_KEYS, OWN, report);
-    let Some(entry) = table.get("file") else {
-        report.push(table.lacks("file", "the name of a file", "the plan, as well-known text"));
-        return None;
-    };
+    let entry = table.one_of(&["file", "wkt"], report)?;
     if dimensions != 2 {
         let fault = Fault::at(table.place, "a plan is flat, and this scene has 3 dimensions".to_owned());
         report.push(fault.label("say dimensions = 2 in [box]"));
     }
     let names = table.get("exits").and_then(|entry| names(entry, report));
-    let name = value::text(&entry.node, "file", "the name of a file", report)?;
+    let given = value::text(&entry.node, &entry.key, "a text", report)?;
     let place = &entry.node.place;
-    let located = files.locate("file", name, place).and_then(|file| Ok((file.plan(place)?, file)));
-    let (text, file) = match located {
-        Ok(found) => found,
-        Err(fault) => {
-            report.push(fault);
-            return None;
+    let from_file = entry.key == "file";
+    let (text, shown) = if from_file {
+        match files.locate("file", given, place).and_then(|file| Ok((file.plan(place)?, file.name().to_owned()))) {
+            Ok(found) => found,
+            Err(fault) => {
+                report.push(fault);
+                return None;
+            }
         }
+    } else {
+        (given.to_owned(), given.split_whitespace().collect::<Vec<_>>().join(" "))
     };
-    let bad = |why: String| Fault::at(place, why).in_input();
+    let bad = |why: String| if from_file { Fault::at(place, why).in_input() } else { Fault::at(place, why) };
     let drawn = match floor_plan::read(&text) {
         Ok(drawn) => drawn,
         Err(why) => {
@@ -81,7 +82,7 @@ pub(super) fn read(
     };
     let exits: Vec<Exit> = drawn.exits.into_iter().zip(1..).map(named).collect();
     out.header("[plan]");
-    out.text("file", file.name());
+    out.text(&entry.key, &shown);
     if let Some(names) = &given {
         let list: Vec<_> = names.iter().map(|name| format!("{name:?}")).collect();
         out.line("exits", &format!("[{}]", list.join(", ")));

@@ -11,7 +11,6 @@ fn run(scene: &str) -> Result<(), String> {
     let folder = tempfile::tempdir().expect("a folder");
     let (file, out) = (folder.path().join("scene.toml"), folder.path().join("out"));
     std::fs::write(&file, scene).expect("a scene");
-    std::fs::write(folder.path().join("room.wkt"), include_str!("../../scenes/room.wkt")).expect("a plan");
     let mut command = Command::new(env!("CARGO_BIN_EXE_motes"));
     command.arg("run").arg(&file).arg("--output").arg(&out).args(["--steps", "2"]);
     let output = command.stdin(Stdio::null()).output().expect("it starts");
@@ -67,7 +66,7 @@ fn particles(name: &str) -> &'static str {
         }
         "walk" => "[[particles]]\nshape = \"lattice\"\nsize = [3, 3, 1]\nspacing = 1\ndesired_speed = 1.3\n",
         "navigate" | "social_wall" => {
-            "[box]\nsize = [20, 20, 0]\nboundary = \"open\"\n[plan]\nfile = \"room.wkt\"\n[[particles]]\nshape = \"crowd\"\ncount = 9\nsize = [5, 5, 0]\ncenter = [5, 5, 0]\n"
+            "[box]\nsize = [20, 20, 0]\nboundary = \"open\"\n[plan]\nwkt = \"GEOMETRYCOLLECTION (POLYGON ((0 0, 9 0, 9 9, 0 9, 0 0)), LINESTRING (8 4, 8 5))\"\n[[particles]]\nshape = \"crowd\"\ncount = 9\nsize = [5, 5, 0]\ncenter = [5, 5, 0]\n"
         }
         "born_mayer" => "[[particles]]\nshape = \"lattice\"\nsize = [3, 3, 3]\nspacing = 1\ncharge = 1\n",
         _ => "[box]\nsize = [3, 3, 3]\n[[particles]]\nshape = \"box\"\ncount = 40\nsize = [2, 2, 2]\nspeed = 0.5\n",

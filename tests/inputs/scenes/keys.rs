@@ -156,7 +156,7 @@ g = 1.0
    |
  6 | [forces]
    |  ^^^^^^ did you mean [[force]]?
-   = the sections are [simulation], [solver], [box], [[motion]], [[column]], [[particles]], [[emitter]], [[drain]], [[links]], [[force]], [output], [[measure]], [checkpoint], [picture]
+   = the sections are [simulation], [solver], [box], [plan], [[motion]], [[column]], [[particles]], [[emitter]], [[drain]], [[links]], [[force]], [output], [[measure]], [checkpoint], [picture]
 
 a.toml: 1 error",
     );
@@ -179,7 +179,7 @@ name = "H200"
    |
  6 | [gpu]
    |  ^^^
-   = the sections are [simulation], [solver], [box], [[motion]], [[column]], [[particles]], [[emitter]], [[drain]], [[links]], [[force]], [output], [[measure]], [checkpoint], [picture]
+   = the sections are [simulation], [solver], [box], [plan], [[motion]], [[column]], [[particles]], [[emitter]], [[drain]], [[links]], [[force]], [output], [[measure]], [checkpoint], [picture]
 
 a.toml: 1 error",
     );

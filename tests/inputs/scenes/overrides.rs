@@ -58,7 +58,7 @@ bodies = [{ position = [0, 0, 0] }]
    |
    | --set simulaton.dt=0.1
    |       ^^^^^^^^^ did you mean [simulation]?
-   = the sections are [simulation], [solver], [box], [[motion]], [[column]], [[particles]], [[emitter]], [[drain]], [[links]], [[force]], [output], [[measure]], [checkpoint], [picture]
+   = the sections are [simulation], [solver], [box], [plan], [[motion]], [[column]], [[particles]], [[emitter]], [[drain]], [[links]], [[force]], [output], [[measure]], [checkpoint], [picture]
 
 a.toml: 1 error",
     );
