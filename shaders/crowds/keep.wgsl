@@ -22,8 +22,8 @@ fn crosses(wall: Wall, start: vec2f, end: vec2f) -> bool {
     let after = side(along, end - wall.a);
     let one = side(end - start, wall.a - start);
     let other = side(end - start, wall.b - start);
-    let leaves = before > 0.0 && after <= 0.0 || before < 0.0 && after >= 0.0;
-    return leaves && (one <= 0.0 && other >= 0.0 || one >= 0.0 && other <= 0.0);
+    let leaves = (before > 0.0 && after <= 0.0) || (before < 0.0 && after >= 0.0);
+    return leaves && ((one <= 0.0 && other >= 0.0) || (one >= 0.0 && other <= 0.0));
 }
 
 @compute @workgroup_size(WORKGROUP)

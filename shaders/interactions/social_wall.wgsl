@@ -38,7 +38,7 @@ fn force(me: Particle) -> vec4f {
             nearest = distance;
             way = here;
             let left = along.x * start.y - along.y * start.x > 0.0;
-            seen = left || s <= 0.0 && (wall.ends & 1u) > 0u || s >= 1.0 && (wall.ends & 2u) > 0u;
+            seen = left || (s <= 0.0 && (wall.ends & 1u) > 0u) || (s >= 1.0 && (wall.ends & 2u) > 0u);
         }
         if (wall.ends & 4u) > 0u {
             if seen && nearest > 0.0 { sum += pressed(me, way, nearest); }
