@@ -33,9 +33,10 @@ pub(super) const BOX: &[Own] = &[
 pub(super) const PLAN: &[Own] = &[
     own(
         "file",
-        "must be given",
-        "the plan as well-known text: POLYGONs are the floor, each LINESTRING on it is an exit",
+        "this or wkt",
+        "a file with the plan as well-known text: POLYGONs are the floor, each LINESTRING on it is an exit",
     ),
+    own("wkt", "this or file", "the same text, in the scene itself"),
     own("exits", "exit 1, exit 2, …", "the names of exits, in their order in the file"),
 ];
 pub(super) const MOTION: &[Own] = &[
