@@ -1,4 +1,4 @@
-// The distance to an exit before ways are found: that of the cells next to it, and FAR of all others.
+// The distance to an exit before ways are found: that of the cells next to it, FAR of all others on the floor, and 0 of the rest.
 @group(0) @binding(0) var<uniform> world: World;
 @group(1) @binding(0) var<storage, read> cell_known: array<f32>;
 @group(1) @binding(1) var<storage, read_write> exit_distance: array<f32>;

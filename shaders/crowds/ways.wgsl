@@ -12,7 +12,7 @@ override COUNT: u32 = 1u;
 override WIDTH: u32 = 1u;
 override SIDE: f32 = 1.0;
 const WORKGROUP: u32 = 64u;
-// No distance: where no way has been found yet, and in walls.
+// No distance: where no way has been found yet.
 const FAR: f32 = 1e9;
 
 @compute @workgroup_size(WORKGROUP)
@@ -21,7 +21,7 @@ fn ways(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: ve
     if k < COUNT {
         let open = cell_open[k];
         var distance = before[k];
-        if (open & 16u) > 0u && cell_known[k] >= FAR {
+        if cell_known[k] >= FAR {
             var a = FAR;
             var b = FAR;
             if (open & 1u) > 0u { a = before[k - 1u]; }

@@ -53,6 +53,9 @@ fn is_open(corner: u32, one: u32, other: u32) -> bool {
     return along_x && along_y && by_x && by_y;
 }
 
+// Whether a cell is on the floor, and has a way to an exit.
+fn is_known(k: u32) -> bool { return (cell_open[k] & 16u) > 0u && exit_distance[k] < FAR; }
+
 fn at(corner: u32, n: u32) -> u32 { return corner + (n & 1u) + (n >> 1u) * params.width; }
 
 fn force(me: Particle) -> vec4f {
@@ -69,7 +72,7 @@ fn force(me: Particle) -> vec4f {
     var largest = -1.0;
     for (var n = 0u; n < 4u; n += 1u) {
         let k = at(corner, n);
-        if exit_distance[k] < FAR && weights[n] > largest {
+        if is_known(k) && weights[n] > largest {
             nearest = n;
             largest = weights[n];
         }
@@ -77,7 +80,7 @@ fn force(me: Particle) -> vec4f {
     var way = vec2f();
     for (var n = 0u; n < 4u; n += 1u) {
         let k = at(corner, n);
-        if exit_distance[k] < FAR && is_open(corner, nearest, n) { way += weights[n] * heading(k); }
+        if is_known(k) && is_open(corner, nearest, n) { way += weights[n] * heading(k); }
     }
     return vec4f((desired_speed[me.index] * unit(vec3f(way, 0.0)) - velocity_of(me)) / params.relaxation_time, 0.0);
 }

@@ -22,7 +22,7 @@ const INSIDE: Field<f32> = Field::new("time_inside");
 const OPEN: &str = "cell_open";
 const KNOWN: &str = "cell_known";
 
-/// No distance: where no way has been found yet, and in walls.
+/// No distance: where no way has been found yet.
 const FAR: f64 = 1e9;
 /// Pairs of sweeps of one kernel.
 const PAIRS: usize = 16;
@@ -40,10 +40,12 @@ pub(crate) fn time_inside() -> Column {
     Column::new(INSIDE.name, Element::Scalar, "time", about)
 }
 
-/// The tables of cells.
+/// The tables of cells. Of those that are not on the floor 0 is kept, which is not read.
 fn tables(cells: &Cells) -> [Table; 2] {
+    let known = cells.known.iter().enumerate();
+    let known = known.map(|(k, known)| known.unwrap_or(if cells.is_floor(k) { FAR } else { 0.0 }));
     #[expect(clippy::cast_possible_truncation, reason = "rounding to f32 is what the device does")]
-    let known = cells.known.iter().map(|known| (known.unwrap_or(FAR) as f32).to_bits());
+    let known = known.map(|known| (known as f32).to_bits());
     [(OPEN.into(), cells.open.clone().into()), (KNOWN.into(), known.collect::<Vec<_>>().into())]
 }
 
@@ -175,7 +177,7 @@ fn way(cells: &Cells, distance: &[f64], x: DVec2) -> DVec3 {
         let [x, y] = [(n & 1, part.x), (n >> 1, part.y)].map(|(high, part)| if high > 0 { part } else { 1.0 - part });
         x * y
     };
-    let known = |n: &usize| distance.get(at(*n)).is_some_and(|far| *far < FAR);
+    let known = |n: &usize| cells.is_floor(at(*n)) && distance.get(at(*n)).is_some_and(|far| *far < FAR);
     let Some(nearest) = (0..4).filter(known).rev().max_by(|a, b| weight(*a).total_cmp(&weight(*b))) else {
         return DVec3::ZERO;
     };

@@ -29,8 +29,8 @@ pub struct Cells {
     pub side: f64,
     /// The number along x and y.
     pub count: [usize; 2],
-    /// Of each cell, x first: 1, 2, 4 and 8 where no wall is between its centre and that of the next one to −x, +x, −y, +y; 16 where its centre
-    /// is on the floor.
+    /// Of each cell, x first: 1, 2, 4 and 8 where it and the next one to −x, +x, −y, +y have their centres on the floor, and no wall is between;
+    /// 16 where its centre is on the floor.
     pub open: Vec<u32>,
     /// The exact distance to an exit of cells next to it, from where its pedestrians have left \[length\].
     pub known: Vec<Option<f64>>,
@@ -91,6 +91,12 @@ impl FloorPlan {
             }
         }
         self.segments().iter().for_each(|wall| cells.close(wall.a, wall.b));
+        let floor: Vec<bool> = cells.open.iter().map(|open| open & FLOOR > 0).collect();
+        for (k, open) in cells.open.iter_mut().enumerate() {
+            let ways = [(WEST, k.wrapping_sub(1)), (EAST, k + 1), (SOUTH, k.wrapping_sub(nx)), (NORTH, k + nx)];
+            let shut = ways.iter().filter(|(bit, next)| *open & bit > 0 && !(floor[k] && floor[*next]));
+            *open &= !shut.fold(0, |all, (bit, _)| all | bit);
+        }
         for (k, known) in cells.known.iter_mut().enumerate() {
             let centre = centre(cells.low, side, k % nx, k / nx);
             let nearest = self.exits().iter().map(|exit| (exit.distance(centre) - exit.reach, exit));
@@ -175,14 +181,17 @@ impl Cells {
         }
         steps
     }
+    /// Whether the centre of a cell is on the floor.
+    #[must_use]
+    pub fn is_floor(&self, k: usize) -> bool {
+        self.open[k] & FLOOR > 0
+    }
     /// The neighbours of a cell to −x, +x, −y, +y, where both are on the floor and no wall is between.
     #[must_use]
     pub fn next(&self, k: usize) -> [Option<usize>; 4] {
         let nx = self.count[0];
-        let all = [k.wrapping_sub(1), k + 1, k.wrapping_sub(nx), k + nx];
-        let mut bits = [WEST, EAST, SOUTH, NORTH].into_iter();
-        let floor = |k: usize| self.open[k] & FLOOR > 0;
-        all.map(|next| bits.next().filter(|bit| self.open[k] & bit > 0 && floor(k) && floor(next)).map(|_| next))
+        let all = [(WEST, k.wrapping_sub(1)), (EAST, k + 1), (SOUTH, k.wrapping_sub(nx)), (NORTH, k + nx)];
+        all.map(|(bit, next)| (self.open[k] & bit > 0).then_some(next))
     }
 }
 

@@ -109,7 +109,8 @@ fn floor() -> FloorPlan {
         [1.0, 5.0],
         [-5.0, 4.5],
     ]);
-    let hole = points(&[[-3.0, 1.0], [-2.0, 1.25], [-1.75, 2.5], [-3.25, 2.25]]);
+    // With sharp tips, whose sides are not both in view.
+    let hole = points(&[[-3.5, 0.5], [-0.75, 1.0], [-3.5, 0.75]]);
     let exit = |path: &[[f64; 2]]| Exit { name: "door".to_owned(), path: points(path), reach: 0.25 };
     let exits = vec![exit(&[[5.5, -1.0], [5.75, 1.0]]), exit(&[[-4.5, 3.0], [-4.0, 4.0], [-3.5, 4.0]])];
     FloorPlan::new(&[Polygon { outline, holes: vec![hole] }], exits, 0.37).expect("a floor")
@@ -159,7 +160,7 @@ fn on_floor(device: &Device, stages: &mut Vec<Stage>, species: &Value) {
         let gpu = simulation.backend();
         gpu.compile(&plans.start).expect("a start");
         if name == "ways" {
-            // Too far by up to a cell. What is not known yet is as far as numbers go, and would be all that counts.
+            // Too far by up to a cell.
             for field in ["exit_distance", "exit_distance_next"] {
                 let bytes = pollster::block_on(gpu.bytes(field, 0, gpu.size(field))).expect("distances");
                 let mut far: Vec<f32> = bytemuck::pod_collect_to_vec(&bytes);

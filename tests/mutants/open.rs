@@ -22,7 +22,7 @@ pub const OPEN: &[Open] = &[
     open("shaders/crowds/exits.wgsl", 1),
     open("shaders/crowds/inside.wgsl", 1),
     open("shaders/crowds/keep.wgsl", 11),
-    open("shaders/crowds/ways.wgsl", 57),
-    open("shaders/interactions/navigate.wgsl", 29),
-    open("shaders/interactions/social_wall.wgsl", 20),
+    open("shaders/crowds/ways.wgsl", 6),
+    open("shaders/interactions/navigate.wgsl", 26),
+    open("shaders/interactions/social_wall.wgsl", 17),
 ];

@@ -94,7 +94,10 @@ fn ways_go_round_corners_and_never_through_walls() {
     let closed = closed.expect("two rooms");
     let (cells, found) = (closed.cells(), distances(&closed, DVec2::new(9.0, 1.0)));
     let nx = cells.count[0];
-    let left: Vec<f64> = (0..found.len()).filter(|k| cells.centre(k % nx, k / nx).x < 5.0).map(|k| found[k]).collect();
+    let left: Vec<f64> = (0..found.len())
+        .filter(|k| cells.is_floor(*k) && cells.centre(k % nx, k / nx).x < 5.0)
+        .map(|k| found[k])
+        .collect();
     assert!(left.len() > 4000 && left.iter().all(|far| *far >= 1e9));
     let lost = walker(closed, DVec2::new(1.0, 1.0));
     let why = pollster::block_on(motes::diagnose::diagnose(&lost)).expect_err("no way").to_string();
@@ -140,7 +143,7 @@ fn the_device_finds_the_same_distances() {
         assert!(apart < 1e-5 * largest || *found >= 1e9 && *want >= 1e9, "{found} is not {want}");
     }
     // Settled: another sweep would change none, neither of the device nor of the reference.
-    for k in (0..want.len()).filter(|k| want[*k] < 1e9 && cells.known[*k].is_none()) {
+    for k in (0..want.len()).filter(|k| cells.is_floor(*k) && want[*k] < 1e9 && cells.known[*k].is_none()) {
         let far = cells.next(k).map(|next| next.map_or(1e9, |next| want[next]));
         let (a, b) = (far[0].min(far[1]), far[2].min(far[3]));
         let apart = (a - b).abs();
