@@ -1,7 +1,5 @@
 // No pedestrian passes a wall: one whose way since its last allowed position crosses a wall is put back there, loses its velocity along that way, and
 // is counted.
-struct Wall { a: vec2f, b: vec2f, ends: u32 }
-
 @group(0) @binding(0) var<uniform> world: World;
 @group(1) @binding(0) var<storage, read_write> position: array<vec4f>;         // xyz, mass
 @group(1) @binding(1) var<storage, read_write> velocity: array<vec4f>;         // xyz, radius
@@ -12,19 +10,6 @@ struct Wall { a: vec2f, b: vec2f, ends: u32 }
 override COUNT: u32 = 1u;
 override SPECIES: u32 = 1u;
 const WORKGROUP: u32 = 64u;
-
-fn side(along: vec2f, x: vec2f) -> f32 { return along.x * x.y - along.y * x.x; }
-
-// A way that ends on a wall crosses it; one that begins on it does not.
-fn crosses(wall: Wall, start: vec2f, end: vec2f) -> bool {
-    let along = wall.b - wall.a;
-    let before = side(along, start - wall.a);
-    let after = side(along, end - wall.a);
-    let one = side(end - start, wall.a - start);
-    let other = side(end - start, wall.b - start);
-    let leaves = (before > 0.0 && after <= 0.0) || (before < 0.0 && after >= 0.0);
-    return leaves && ((one <= 0.0 && other >= 0.0) || (one >= 0.0 && other <= 0.0));
-}
 
 @compute @workgroup_size(WORKGROUP)
 fn keep(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u, @builtin(local_invocation_index) lane: u32) {

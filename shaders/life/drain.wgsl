@@ -1,4 +1,4 @@
-// An active particle inside of a drain's solid, or outside of it, is removed: it stays there at rest, without mass.
+// An active particle inside of a drain's solid, or outside of it, where nothing is in the way, is removed: it stays there at rest, without mass.
 struct Params { unused_word: u32, position: vec3f, radius: f32, size: vec3f, shape: u32, axis: vec3f, side: f32, species: u32 }
 
 @group(0) @binding(0) var<uniform> world: World;
@@ -19,7 +19,7 @@ fn drain(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: v
         var r = position[i].xyz - params.position;
         // A plane has no images.
         if params.shape != PLANE { r = nearest_image(r); }
-        if params.side * signed_distance(params.shape, r, params.radius, params.size, params.axis).w < 0.0 {
+        if params.side * signed_distance(params.shape, r, params.radius, params.size, params.axis).w < 0.0 && is_free(position[i].xyz, r) {
             life[i] = 2u;
             position[i].w = 0.0;
             velocity[i] = vec4f(vec3f(), velocity[i].w);

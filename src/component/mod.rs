@@ -203,6 +203,8 @@ pub struct Properties {
     pub presses: Option<Press>,
     /// Whether it leads to the exits of a floor plan.
     pub navigates: bool,
+    /// Whether it keeps pedestrians on the floor of a plan.
+    pub keeps_in: bool,
     /// Whether it breaks bonds.
     pub breaks_bonds: bool,
     /// Whether it is evaluated after all others, wherever it is in the scene.

@@ -40,6 +40,7 @@ pub(crate) fn keep(plan: &FloorPlan, species: Option<u32>, problem: &Problem) ->
     let shader = Shader::join(&[
         crate::shader!("world.wgsl"),
         crate::shader!("law/species.wgsl"),
+        crate::shader!("crowds/crosses.wgsl"),
         crate::shader!("crowds/keep.wgsl"),
         holding,
         problem.active(),

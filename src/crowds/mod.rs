@@ -7,13 +7,17 @@
 //! * the anisotropy multiplies the exponential only, and not the forces of touch.
 
 mod keep;
+mod places;
 mod press;
+mod sight;
 mod walls;
 mod ways;
 
 pub(crate) use keep::{allowed_columns, begin, keep};
+pub(crate) use places::{have_ways, on_the_floor, reach_exits};
 pub(crate) use press::{DECAY, FRICTION, REPULSION, STIFFNESS};
 pub use press::{Press, STEEPEST};
+pub(crate) use sight::Sight;
 
 pub(crate) use walls::{pushed, rounded, table};
 pub use ways::EXIT_DISTANCE;

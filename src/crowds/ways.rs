@@ -40,22 +40,22 @@ pub(crate) fn time_inside() -> Column {
     Column::new(INSIDE.name, Element::Scalar, "time", about)
 }
 
-/// The tables of cells. Of those that are not on the floor 0 is kept, which is not read.
+/// The tables of cells. What is known of those that are not on the floor is 0, which is not read.
 fn tables(cells: &Cells) -> [Table; 2] {
-    let known = cells.known.iter().enumerate();
-    let known = known.map(|(k, known)| known.unwrap_or(if cells.is_floor(k) { FAR } else { 0.0 }));
+    let known = (0..cells.open.len()).map(|k| cells.known(k).unwrap_or(if cells.is_floor(k) { FAR } else { 0.0 }));
     #[expect(clippy::cast_possible_truncation, reason = "rounding to f32 is what the device does")]
     let known = known.map(|known| (known as f32).to_bits());
-    [(OPEN.into(), cells.open.clone().into()), (KNOWN.into(), known.collect::<Vec<_>>().into())]
+    [(OPEN.into(), cells.open.clone()), (KNOWN.into(), known.collect::<Vec<_>>().into())]
 }
 
 /// The kernels that find ways, before the first step.
 pub(crate) fn kernels(plan: &FloorPlan, out: &mut Plan) -> Result<(), Error> {
     let cells = plan.cells();
-    out.add(start(&cells)?);
+    let tables = tables(&cells);
+    out.add(start(&cells, &tables)?);
     // What a cell knows comes from its neighbours, sweep by sweep, along a chain of cells that is at most √2 longer than the shortest one.
     let longest = cells.steps().into_iter().flatten().max().unwrap_or(0) as usize;
-    let sweep = sweeps(&cells)?;
+    let sweep = sweeps(&cells, &tables)?;
     (0..(longest * 3 / 2 + 2).div_ceil(2 * PAIRS)).for_each(|_| out.add(sweep.clone()));
     Ok(())
 }
@@ -63,18 +63,18 @@ pub(crate) fn kernels(plan: &FloorPlan, out: &mut Plan) -> Result<(), Error> {
 fn cell_kernel(
     name: &str,
     passes: Vec<Pass>,
-    cells: &Cells,
+    (cells, tables): (&Cells, &[Table]),
     run: impl Fn(&Host) -> Result<(), Error> + Send + Sync + 'static,
 ) -> Kernel {
     let count = cells.open.len() as u64;
     let reads = |name: &str| passes.iter().any(|pass| pass.shader.reflection().binding(name).is_some());
-    let tables: Vec<Table> = tables(cells).into_iter().filter(|(name, _)| reads(name)).collect();
+    let tables: Vec<Table> = tables.iter().filter(|(name, _)| reads(name)).cloned().collect();
     let mut sizes: Vec<_> = tables.iter().map(|(name, _)| (name.clone(), count)).collect();
     sizes.extend([(EXIT_DISTANCE.name.into(), count), (NEXT.name.into(), count)]);
     Kernel { name: name.to_owned(), passes, reference: Some(Arc::new(run)), sizes, scratch: Vec::new(), tables }
 }
 
-fn start(cells: &Cells) -> Result<Kernel, Error> {
+fn start(cells: &Cells, tables: &[Table]) -> Result<Kernel, Error> {
     let shader = Shader::join(&[crate::shader!("world.wgsl"), crate::shader!("crowds/exits.wgsl")])?;
     let count = u32::try_from(cells.open.len()).unwrap_or(u32::MAX);
     let pass = Pass { constants: vec![("COUNT", f64::from(count))], ..Pass::new(shader, count) };
@@ -84,11 +84,11 @@ fn start(cells: &Cells) -> Result<Kernel, Error> {
         host.write(NEXT)?.copy_from_slice(&known);
         Ok(())
     };
-    Ok(cell_kernel("exits", vec![pass], cells, reference))
+    Ok(cell_kernel("exits", vec![pass], (cells, tables), reference))
 }
 
 /// Some sweeps over all cells, to and fro between two fields.
-fn sweeps(cells: &Cells) -> Result<Kernel, Error> {
+fn sweeps(cells: &Arc<Cells>, tables: &[Table]) -> Result<Kernel, Error> {
     let shader = Shader::join(&[crate::shader!("world.wgsl"), crate::shader!("crowds/ways.wgsl")])?;
     let count = u32::try_from(cells.open.len()).unwrap_or(u32::MAX);
     let constants = vec![("COUNT", f64::from(count)), ("WIDTH", cells.count[0] as f64), ("SIDE", cells.side)];
@@ -106,7 +106,7 @@ fn sweeps(cells: &Cells) -> Result<Kernel, Error> {
         }
         Ok(())
     };
-    Ok(cell_kernel("ways", passes, cells, reference))
+    Ok(cell_kernel("ways", passes, (cells, tables), reference))
 }
 
 /// A sweep by Godunov's upwind differences (Rouy & Tourin, SIAM J. Numer. Anal. 29, 867, 1992).
@@ -151,7 +151,7 @@ pub(crate) fn drive(plan: &FloorPlan, wgsl: Source, time: f64, species: Option<u
         ("height", height),
         ("species", Scalar::Uint(species.unwrap_or(u32::MAX))),
     ];
-    let [open, _] = tables(&cells);
+    let open = (OPEN.into(), cells.open.clone());
     let values = values.map(|(name, value)| (name.to_owned(), value)).to_vec();
     let rule = move |me: &Particle, _: &World| {
         if species.is_some_and(|own| own != me.species()) {

@@ -2,7 +2,7 @@
 
 use super::Remark;
 use super::steps::digits;
-use crate::crowds::Press;
+use crate::crowds::{self, Press};
 use crate::error::Error;
 use crate::simulation::Setup;
 
@@ -67,37 +67,43 @@ pub fn remarks(setup: &Setup) -> Result<Vec<Remark>, Error> {
     Ok(vec![remark.with("dt", dt).with("largest_dt", ALTERNATING * limit).advice(way)])
 }
 
-/// Refuses pedestrians that have no way to an exit, and exits to which no way leads.
-fn ways(setup: &Setup) -> Result<(), Error> {
+/// Refuses cells too large for pedestrians, pedestrians that have no way to an exit, and exits to which no way leads.
+///
+/// # Errors
+/// [`Error::Scene`] with the place.
+pub fn ways(setup: &Setup) -> Result<(), Error> {
     let (state, navigates) = (&setup.state, setup.forces.iter().any(|force| force.properties().navigates));
-    let Some(plan) = state.floor_plan.as_ref().filter(|_| navigates && state.step == 0) else { return Ok(()) };
+    let Some(plan) = state.floor_plan.as_ref().filter(|_| navigates) else { return Ok(()) };
     let refuse = |text: String| Err(Error::Scene(text));
     if plan.exits().is_empty() {
         return refuse("the plan has no exit, so that no way leads out: add a LINESTRING on its floor".to_owned());
     }
+    // The nearest centre is nearer than cell / √2, so that no wall that the disc does not overlap by 0.3 of its radius is before it.
+    let radii = state.scalar("radius").unwrap_or_default().iter().copied().filter(|radius| *radius > 0.0);
+    let (smallest, cell) = (radii.fold(f64::INFINITY, f64::min), plan.cell());
+    if cell > smallest {
+        return refuse(format!(
+            "the cells of the plan have sides of {cell}, and the smallest pedestrian has the radius {smallest}: it would be led by cells on the \
+             other side of a thin wall; choose cell = {} in [plan], or smaller",
+            digits(smallest)
+        ));
+    }
     let cells = plan.cells();
-    let shut = plan.exits().iter().find(|exit| !cells.reaches(exit));
+    let shut = plan.exits().iter().find(|exit| !cells.reaches(plan, exit));
     if let Some(exit) = shut {
         let at = exit.path[0];
         return refuse(format!(
-            "no way leads to the exit \"{}\" at {} {}: no cell of {} has its centre next to it in front of all walls; choose smaller cells, or \
+            "no way leads to the exit \"{}\" at {} {}: no cell of {cell} has its centre next to it in front of all walls; choose smaller cells, or \
              move it",
-            exit.name,
-            at.x,
-            at.y,
-            plan.cell()
+            exit.name, at.x, at.y
         ));
     }
-    let steps = cells.steps();
-    let lost = |x: &glam::DVec3| !cells.around(x.truncate()).into_iter().any(|k| steps[k].is_some());
-    let mut all = state.position().iter().enumerate().filter(|(i, x)| state.is_active(*i) && lost(x));
-    let Some((first, x)) = all.next() else { return Ok(()) };
-    refuse(format!(
-        "{} particles have no way to an exit, the first of them particle {first} at {} {}: open the wall that is between, or add an exit",
-        1 + all.count(),
-        x.x,
-        x.y
-    ))
+    let starts = state.step == 0;
+    // In a run that goes on, pedestrians may be anywhere where no walls keep them, and only few may be left.
+    if starts || setup.forces.iter().any(|force| force.properties().keeps_in) {
+        crowds::have_ways(plan, state)?;
+    }
+    if starts { crowds::reach_exits(plan, state) } else { Ok(()) }
 }
 
 #[cfg(test)]

@@ -1,12 +1,13 @@
 //! The cells of a plan, on which ways to exits are found.
 
 use std::collections::VecDeque;
+use std::sync::Arc;
 
 use glam::DVec2;
 
-use super::{FloorPlan, wall::foot};
+use super::{Exit, FloorPlan};
 
-/// The most cells of a plan: 16 million, whose two fields have 128 MB together.
+/// The most cells of a plan: 16 million, of which a device holds two fields and two tables of 64 MiB each.
 pub const MOST_CELLS: usize = 1 << 24;
 
 /// The four neighbours of a cell, as bits of [`Cells::open`]: to −x, +x, −y, +y.
@@ -16,6 +17,12 @@ const SOUTH: u32 = 4;
 const NORTH: u32 = 8;
 /// The bit of a cell whose centre is on the floor.
 const FLOOR: u32 = 16;
+
+/// The bit of a cell from which a way leads to an exit.
+const WAY: u32 = 32;
+
+/// What is known of a cell from which no exit is near.
+const NOTHING: f32 = f32::INFINITY;
 
 /// Within so many cells of an exit the distance to it is exact, where no wall is between.
 const EXACT: f64 = 2.5;
@@ -30,10 +37,9 @@ pub struct Cells {
     /// The number along x and y.
     pub count: [usize; 2],
     /// Of each cell, x first: 1, 2, 4 and 8 where it and the next one to −x, +x, −y, +y have their centres on the floor, and no wall is between;
-    /// 16 where its centre is on the floor.
-    pub open: Vec<u32>,
-    /// The exact distance to an exit of cells next to it, from where its pedestrians have left \[length\].
-    pub known: Vec<Option<f64>>,
+    /// 16 where its centre is on the floor; 32 where a way leads from there to an exit.
+    pub open: Arc<Vec<u32>>,
+    known: Vec<f32>,
 }
 
 impl FloorPlan {
@@ -68,9 +74,60 @@ impl FloorPlan {
         all.sort_by(f64::total_cmp);
         all
     }
-    /// Its cells.
+    /// Its cells, which are kept once they have been asked for.
     #[must_use]
-    pub fn cells(&self) -> Cells {
+    pub fn cells(&self) -> Arc<Cells> {
+        self.cells.get_or_init(|| Arc::new(self.divided())).clone()
+    }
+    /// The cells with their centres on the floor from which an exit is near, with no wall between, and the distance from where pedestrians have
+    /// left through it; a cell may be listed several times.
+    fn near(&self, cells: &Cells, exit: &Exit) -> Vec<(usize, f64)> {
+        let [nx, ny] = cells.count;
+        let far = exit.reach + EXACT * cells.side;
+        let mut near = Vec::new();
+        for piece in exit.pieces() {
+            let low = (piece[0].min(piece[1]) - far - cells.low) / cells.side;
+            let high = (piece[0].max(piece[1]) + far - cells.low) / cells.side;
+            for (y, _) in lines(low.y, high.y, ny) {
+                for (x, _) in lines(low.x, high.x, nx) {
+                    let (k, centre) = (y * nx + x, cells.centre(x, y));
+                    let distance = super::wall::foot(piece[0], piece[1], centre).0.distance(centre);
+                    if cells.is_floor(k) && distance <= far && self.free_way(piece, centre).is_some() {
+                        near.push((k, (distance - exit.reach).max(0.0)));
+                    }
+                }
+            }
+        }
+        near
+    }
+    /// The cells around a point that a pedestrian there sees, in the order of [`Cells::around`].
+    fn seen(&self, cells: &Cells, x: DVec2) -> impl Iterator<Item = usize> {
+        let nx = cells.count[0];
+        cells.around(x).into_iter().filter(move |k| self.between(x, cells.centre(k % nx, k / nx)).is_none())
+    }
+    /// Whether a way leads from a point to an exit.
+    #[must_use]
+    pub fn leads_out(&self, x: DVec2) -> bool {
+        let cells = self.cells();
+        self.seen(&cells, x).any(|k| cells.open[k] & WAY > 0)
+    }
+    /// The first exit to which no way leads from any of these places, if there is one.
+    #[must_use]
+    pub fn without_way(&self, from: impl Iterator<Item = DVec2>) -> Option<&Exit> {
+        let cells = self.cells();
+        let mut reached = vec![false; cells.open.len()];
+        let mut edge: Vec<usize> = Vec::new();
+        for x in from {
+            edge.extend(self.seen(&cells, x).filter(|k| cells.is_floor(*k)));
+            while let Some(k) = edge.pop() {
+                if !std::mem::replace(&mut reached[k], true) {
+                    edge.extend(cells.next(k).into_iter().flatten().filter(|next| !reached[*next]));
+                }
+            }
+        }
+        self.exits().iter().find(|exit| !self.near(&cells, exit).iter().any(|(k, _)| reached[*k]))
+    }
+    fn divided(&self) -> Cells {
         let side = self.cell();
         let (low, high) = self.extent();
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "checked to be few")]
@@ -78,37 +135,41 @@ impl FloorPlan {
         #[expect(clippy::cast_precision_loss, reason = "few")]
         let half = 0.5 * side * DVec2::new(count[0] as f64, count[1] as f64);
         let [nx, ny] = count;
-        let mut cells =
-            Cells { low: 0.5 * (low + high) - half, side, count, open: vec![0; nx * ny], known: vec![None; nx * ny] };
+        let mut cells = Cells {
+            low: 0.5 * (low + high) - half,
+            side,
+            count,
+            open: Arc::new(vec![0; nx * ny]),
+            known: vec![NOTHING; nx * ny],
+        };
+        let open = Arc::make_mut(&mut cells.open);
         for y in 0..ny {
-            let crossings = self.crossings(cells.centre(0, y).y);
+            let crossings = self.crossings(centre(cells.low, side, 0, y).y);
             for x in 0..nx {
-                let centre = cells.centre(x, y);
+                let centre = centre(cells.low, side, x, y);
                 let next = [(x > 0, WEST), (x + 1 < nx, EAST), (y > 0, SOUTH), (y + 1 < ny, NORTH)];
                 let inside = next.iter().filter(|(is, _)| *is).fold(0, |all, (_, bit)| all | bit);
                 let floor = crossings.partition_point(|at| *at <= centre.x) % 2 == 1;
-                cells.open[y * nx + x] = inside | if floor { FLOOR } else { 0 };
+                open[y * nx + x] = inside | if floor { FLOOR } else { 0 };
             }
         }
         self.segments().iter().for_each(|wall| cells.close(wall.a, wall.b));
         let floor: Vec<bool> = cells.open.iter().map(|open| open & FLOOR > 0).collect();
-        for (k, open) in cells.open.iter_mut().enumerate() {
+        for (k, open) in Arc::make_mut(&mut cells.open).iter_mut().enumerate() {
             let ways = [(WEST, k.wrapping_sub(1)), (EAST, k + 1), (SOUTH, k.wrapping_sub(nx)), (NORTH, k + nx)];
             let shut = ways.iter().filter(|(bit, next)| *open & bit > 0 && !(floor[k] && floor[*next]));
             *open &= !shut.fold(0, |all, (bit, _)| all | bit);
         }
-        for (k, known) in cells.known.iter_mut().enumerate() {
-            let centre = centre(cells.low, side, k % nx, k / nx);
-            let nearest = self.exits().iter().map(|exit| (exit.distance(centre) - exit.reach, exit));
-            let Some((distance, exit)) = nearest.min_by(|a, b| a.0.total_cmp(&b.0)) else { continue };
-            if cells.open[k] & FLOOR > 0 && distance <= EXACT * side {
-                let feet = exit.pieces().map(|[a, b]| foot(a, b, centre).0);
-                let foot = feet.min_by(|a, b| a.distance(centre).total_cmp(&b.distance(centre)));
-                if foot.is_some_and(|foot| self.between(centre, foot).is_none()) {
-                    *known = Some(distance.max(0.0));
-                }
-            }
+        #[expect(clippy::cast_possible_truncation, reason = "rounding to f32 is what the device does")]
+        for (k, distance) in self.exits().iter().flat_map(|exit| self.near(&cells, exit)).collect::<Vec<_>>() {
+            cells.known[k] = cells.known[k].min(distance as f32);
         }
+        let steps = cells.steps();
+        Arc::make_mut(&mut cells.open)
+            .iter_mut()
+            .zip(steps)
+            .filter(|(_, steps)| steps.is_some())
+            .for_each(|(open, _)| *open |= WAY);
         cells
     }
 }
@@ -128,9 +189,10 @@ impl Cells {
     fn close(&mut self, a: DVec2, b: DVec2) {
         let [nx, ny] = self.count;
         let [a, b] = [a, b].map(|x| (x - self.low) / self.side - 0.5);
+        let open = Arc::make_mut(&mut self.open);
         let mut shut = |x: Option<usize>, y: Option<usize>, bit: u32| {
             if let (Some(x), Some(y)) = (x.filter(|x| *x < nx), y.filter(|y| *y < ny)) {
-                self.open[y * nx + x] &= !bit;
+                open[y * nx + x] &= !bit;
             }
         };
         for row in lines(a.y, b.y, ny) {
@@ -144,14 +206,15 @@ impl Cells {
             shut(Some(column.0), usize::try_from(y + 1).ok(), SOUTH);
         }
     }
-    /// Whether a cell next to an exit is in front of all walls.
+    /// Of a cell next to an exit, in front of all walls, the exact distance from where its pedestrians have left \[length\].
     #[must_use]
-    pub fn reaches(&self, exit: &super::Exit) -> bool {
-        let [nx, _] = self.count;
-        let near = |(k, known): (usize, &Option<f64>)| {
-            known.is_some() && exit.distance(self.centre(k % nx, k / nx)) - exit.reach <= EXACT * self.side
-        };
-        self.known.iter().enumerate().any(near)
+    pub fn known(&self, k: usize) -> Option<f64> {
+        (self.known[k] < NOTHING).then(|| f64::from(self.known[k]))
+    }
+    /// Whether a cell is next to an exit, in front of all walls.
+    #[must_use]
+    pub fn reaches(&self, plan: &FloorPlan, exit: &Exit) -> bool {
+        !plan.near(self, exit).is_empty()
     }
     /// The four cells whose centres are around a point.
     #[must_use]
@@ -168,7 +231,7 @@ impl Cells {
     /// The numbers of steps from exits to each cell, along open ways; `None` where there is no way.
     #[must_use]
     pub fn steps(&self) -> Vec<Option<u32>> {
-        let mut steps: Vec<Option<u32>> = self.known.iter().map(|known| known.map(|_| 0)).collect();
+        let mut steps: Vec<Option<u32>> = (0..self.known.len()).map(|k| self.known(k).map(|_| 0)).collect();
         let mut edge: VecDeque<usize> = (0..steps.len()).filter(|k| steps[*k].is_some()).collect();
         while let Some(k) = edge.pop_front() {
             let further = steps[k].map(|n| n + 1);

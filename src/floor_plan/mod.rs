@@ -2,15 +2,19 @@
 //! walls are their sides.
 
 mod cells;
+mod exit;
+mod nested;
 mod ring;
 mod wall;
 
 pub use cells::{Cells, MOST_CELLS};
+pub use exit::{AHEAD, Exit, MOST_PIECES};
 pub use wall::{MOST_SEGMENTS, Nearest, Segment};
+
+use std::sync::{Arc, OnceLock};
 
 use glam::DVec2;
 
-use crate::life::Drain;
 use crate::solids::{Solid, Standing};
 use ring::Ring;
 
@@ -23,34 +27,6 @@ pub struct Polygon {
     pub holes: Vec<Vec<DVec2>>,
 }
 
-/// An exit: a line that pedestrians leave at.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Exit {
-    /// Its name.
-    pub name: String,
-    /// The points of the line, two or more \[length\].
-    pub path: Vec<DVec2>,
-    /// The distance from the line at which a pedestrian has left \[length\].
-    pub reach: f64,
-}
-
-impl Exit {
-    /// The distance of a point from the line \[length\].
-    #[must_use]
-    pub fn distance(&self, x: DVec2) -> f64 {
-        self.pieces().map(|[a, b]| (x - wall::foot(a, b, x).0).length()).fold(f64::INFINITY, f64::min)
-    }
-    /// Its length \[length\].
-    #[must_use]
-    pub fn width(&self) -> f64 {
-        self.pieces().map(|[a, b]| (b - a).length()).sum()
-    }
-    /// The pieces of the line.
-    pub fn pieces(&self) -> impl Iterator<Item = [DVec2; 2]> + '_ {
-        self.path.windows(2).map(|pair| [pair[0], pair[1]])
-    }
-}
-
 /// A floor plan, checked.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FloorPlan {
@@ -58,14 +34,20 @@ pub struct FloorPlan {
     segments: Vec<Segment>,
     exits: Vec<Exit>,
     cell: f64,
+    /// Its cells, which follow from the rest, after they have been asked for.
+    cells: OnceLock<Arc<Cells>>,
 }
+
+/// Coordinates are known to this part of a cell in single precision.
+const FINE: f64 = 0.01;
 
 impl FloorPlan {
     /// A plan of polygons that do not meet, with exits, and cells of this side for the ways to them \[length\].
     ///
     /// # Errors
     /// A sentence with the place: outlines of fewer than three points, without area or that cross themselves or each other, holes outside,
-    /// exits off the floor, numbers that are not finite, more walls than [`MOST_SEGMENTS`] or more cells than [`MOST_CELLS`].
+    /// outlines within others, exits that leave the floor, numbers that are not finite or too large for single precision, more walls than
+    /// [`MOST_SEGMENTS`], more cells than [`MOST_CELLS`], or exits of more pieces than [`MOST_PIECES`].
     pub fn new(polygons: &[Polygon], exits: Vec<Exit>, cell: f64) -> Result<Self, String> {
         let mut rings = Vec::new();
         for (polygon, number) in polygons.iter().zip(1..) {
@@ -90,10 +72,12 @@ impl FloorPlan {
             ));
         }
         ring::apart(&rings)?;
+        nested::check(&rings)?;
         let segments = wall::segments(&rings);
-        let plan = Self { rings, segments, exits, cell };
-        plan.exits.iter().try_for_each(|exit| plan.reaches(exit))?;
+        let plan = Self { rings, segments, exits, cell, cells: OnceLock::new() };
         plan.cells_fit()?;
+        plan.resolved()?;
+        plan.exits_fit()?;
         Ok(plan)
     }
     /// The walls, those of one wall in a row.
@@ -145,32 +129,19 @@ impl FloorPlan {
         };
         self.segments.iter().map(wall).collect()
     }
-    /// The drains at its exits, which remove pedestrians that have left.
-    #[must_use]
-    pub fn drains(&self) -> Vec<Drain> {
-        let drain = |exit: &Exit, [a, b]: [DVec2; 2]| Drain {
-            solid: Solid::Capsule((b - a).extend(0.0), exit.reach),
-            position: (0.5 * (a + b)).extend(0.0),
-            outside: false,
-            species: None,
-        };
-        self.exits.iter().flat_map(|exit| exit.pieces().map(move |piece| drain(exit, piece))).collect()
-    }
-    fn reaches(&self, exit: &Exit) -> Result<(), String> {
-        let name = &exit.name;
-        if exit.path.len() < 2 || exit.width() <= 0.0 {
-            return Err(format!("the exit \"{name}\" has no length: it needs two points at least"));
+    /// Refuses coordinates so large that single precision moves walls.
+    fn resolved(&self) -> Result<(), String> {
+        let (low, high) = self.extent();
+        let largest = low.abs().max(high.abs()).max_element();
+        let (apart, fine) = (f64::from(f32::EPSILON) * largest.log2().floor().exp2(), FINE * self.cell);
+        if apart <= fine {
+            return Ok(());
         }
-        if let Some(bad) = exit.path.iter().find(|x| !x.is_finite()) {
-            return Err(format!("the exit \"{name}\" has the point {} {}, which is not finite", bad.x, bad.y));
-        }
-        let middle = exit.pieces().map(|[a, b]| 0.5 * (a + b));
-        match middle.into_iter().find(|x| !self.holds(*x)) {
-            Some(x) => Err(format!(
-                "the exit \"{name}\" is not on the floor at {} {}: draw its line inside of the POLYGON, where pedestrians are to leave",
-                x.x, x.y
-            )),
-            None => Ok(()),
-        }
+        let near = low.floor();
+        Err(format!(
+            "its coordinates go up to {largest}, where numbers of single precision are {apart} apart, and the most is {fine}, a hundredth of a cell: \
+             subtract a point near it, with origin = [{}, {}, 0] in [plan], or choose larger cells",
+            near.x, near.y
+        ))
     }
 }

@@ -9,6 +9,16 @@ pub struct Ring {
     pub name: String,
     /// Its points, each once.
     pub points: Vec<DVec2>,
+    /// Whether it is that of a hole.
+    pub hole: bool,
+}
+
+/// The area inside of points; below 0 where they go round clockwise.
+fn area(points: &[DVec2]) -> f64 {
+    let pairs = points.iter().zip(points.iter().cycle().skip(1));
+    // From a point of it, so that a small outline far from the origin keeps its digits.
+    let origin = points.first().copied().unwrap_or_default();
+    pairs.map(|(a, b)| 0.5 * (a - origin).perp_dot(*b - origin)).sum()
 }
 
 impl Ring {
@@ -29,15 +39,18 @@ impl Ring {
         if points.len() < 3 {
             return Err(format!("{name} has {} different points, and an outline needs three", points.len()));
         }
-        let pairs = points.iter().zip(points.iter().cycle().skip(1));
-        let area: f64 = pairs.map(|(a, b)| 0.5 * a.perp_dot(*b)).sum();
+        let area = area(&points);
         if area == 0.0 {
             return Err(format!("{name} has no area"));
         }
         if (area > 0.0) == hole {
             points.reverse();
         }
-        Ok(Self { name: name.to_owned(), points })
+        Ok(Self { name: name.to_owned(), points, hole })
+    }
+    /// The area inside of it.
+    pub fn area(&self) -> f64 {
+        area(&self.points).abs()
     }
     /// Its sides.
     pub fn sides(&self) -> impl Iterator<Item = [DVec2; 2]> + '_ {

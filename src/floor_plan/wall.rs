@@ -49,6 +49,14 @@ impl Segment {
         let seen = left || s <= 0.0 && self.out[0] || s >= 1.0 && self.out[1];
         Nearest { way: x - at, seen }
     }
+    /// The part of the way between two points at which it is crossed or touched, if it is, and is not along it.
+    pub(super) fn cut(&self, from: DVec2, to: DVec2) -> Option<f64> {
+        const NEARLY: f64 = 1e-9;
+        let (way, along, start) = (to - from, self.b - self.a, self.a - from);
+        let across = way.perp_dot(along);
+        let (t, s) = (start.perp_dot(along) / across, start.perp_dot(way) / across);
+        (across != 0.0 && (0.0..=1.0).contains(&t) && (-NEARLY..=1.0 + NEARLY).contains(&s)).then_some(t)
+    }
     /// Whether it lies between two points. A way that ends on it crosses it; one that begins on it does not.
     #[must_use]
     pub fn crosses(&self, from: DVec2, to: DVec2) -> bool {

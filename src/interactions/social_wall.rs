@@ -66,6 +66,7 @@ impl Component for SocialWall {
     fn properties(&self) -> Properties {
         Properties {
             constrains: true,
+            keeps_in: true,
             dissipates: vec!["walls"],
             turns: true,
             presses: Some(Press::of(&self.0)),

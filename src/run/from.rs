@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use crate::diagnose;
 use crate::error::Error;
 use crate::formats;
 use crate::scene::Scene;
@@ -70,7 +71,9 @@ pub fn go_on(setup: &mut Setup, scene: &Scene, path: &Path) -> Result<(), Error>
             plain(state.time)
         ));
     }
-    match setup.state.go_on_from(&state) {
+    let goes_on =
+        setup.state.go_on_from(&state).and_then(|()| setup.on_the_floor()).and_then(|()| diagnose::have_ways(setup));
+    match goes_on {
         Err(Error::Scene(message)) => refuse(format!("cannot go on: {message}")),
         other => {
             setup.bounds = setup.in_its_box()?.bounds;

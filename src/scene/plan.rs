@@ -1,5 +1,7 @@
 //! `[plan]`: a floor plan in well-known text, which a file or the scene itself holds.
 
+use glam::DVec3;
+
 use crate::floor_plan::{Exit, FloorPlan};
 use crate::formats::floor_plan;
 use crate::settings::{Key, Kind, Value};
@@ -25,7 +27,13 @@ pub const PLAN_KEYS: &[Key] = &[
         "reach",
         Kind::Positive,
         Value::Number(0.25),
-        "the distance from the line of an exit at which a pedestrian has left [length]",
+        "the distance from the line of an exit at which a pedestrian has left, where no wall is between [length]",
+    ),
+    Key::new(
+        "origin",
+        Kind::Vector,
+        Value::Vector(DVec3::ZERO),
+        "the point of the file that is at 0 0 of the scene; z must be 0 [length]",
     ),
 ];
 
@@ -80,6 +88,12 @@ pub(super) fn read(
             return None;
         }
     };
+    let origin = settings.vector("origin");
+    if origin.z != 0.0 {
+        let text = format!("the origin of the plan has z = {}, and a plan is flat: give it z = 0", origin.z);
+        report.push(Fault::at(table.get("origin").map_or(table.place, |entry| &entry.place), text));
+    }
+    let drawn = drawn.from_origin(origin.truncate());
     let count = drawn.exits.len();
     if let Some((given, place)) = names.as_ref().filter(|(names, _)| names.len() != count) {
         let text = format!("{} names of exits are given, and the plan has {count}: a LINESTRING for each", given.len());

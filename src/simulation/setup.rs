@@ -7,6 +7,7 @@ use glam::DVec3;
 use super::{columns, inactive, initial_projection, lists, pair_history, unwritten};
 use crate::boundary;
 use crate::component;
+use crate::crowds;
 use crate::error::Error;
 use crate::forces::{Component, Over, Problem, Stage};
 use crate::integrators::{self, Integrator, Leapfrog, Step};
@@ -375,18 +376,11 @@ impl Setup {
     pub fn breaks(&self) -> bool {
         self.forces.iter().any(|force| force.properties().breaks_bonds)
     }
-    /// Refuses particles that start off the floor of a plan.
-    fn on_the_floor(&self) -> Result<(), Error> {
-        let (Some(plan), 0) = (&self.state.floor_plan, self.state.step) else { return Ok(()) };
-        let places = self.state.position().iter().enumerate();
-        let mut off = places.filter(|(i, x)| self.state.is_active(*i) && !plan.holds(x.truncate()));
-        let Some((first, x)) = off.next() else { return Ok(()) };
-        Err(Error::Scene(format!(
-            "{} particles are in a wall or off the floor of the plan, the first of them particle {first} at {} {}: move them into the POLYGON",
-            1 + off.count(),
-            x.x,
-            x.y
-        )))
+    /// Refuses particles off the floor of a plan: at the start all of them, and in a run that goes on those that walls keep.
+    pub(crate) fn on_the_floor(&self) -> Result<(), Error> {
+        let Some(plan) = &self.state.floor_plan else { return Ok(()) };
+        let kept = || self.forces.iter().any(|force| force.properties().keeps_in);
+        if self.state.step == 0 || kept() { crowds::on_the_floor(plan, &self.state) } else { Ok(()) }
     }
     /// The number of particles, if the setup is valid.
     ///

@@ -7,6 +7,7 @@ use glam::DVec4;
 use super::Simulation;
 use super::grow::Room;
 use crate::boundary;
+use crate::crowds;
 use crate::error::Error;
 use crate::kernel::{ACCELERATION, Array, Backend, Column, ID, LIFE, Machine, POSITION, Role, Shape, VELOCITY};
 use crate::life::Life;
@@ -127,6 +128,12 @@ impl<B: Backend> Simulation<B> {
             return refuse(
                 "particles that are spawned take part at once: give them no life, births or drains".to_owned(),
             );
+        }
+        if let Some(plan) = self.ties.floor_plan() {
+            crowds::on_the_floor(plan, new)?;
+            if self.setup.forces.iter().any(|force| force.properties().navigates) {
+                crowds::have_ways(plan, new)?;
+            }
         }
         if new.has_ids() {
             return refuse("particles that are spawned get ids of their own: take away the column `id`".to_owned());

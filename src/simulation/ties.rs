@@ -39,6 +39,10 @@ impl Ties {
     pub fn drains(&self) -> &[Drain] {
         &self.drains
     }
+    /// The floor plan.
+    pub fn floor_plan(&self) -> Option<&FloorPlan> {
+        self.floor_plan.as_deref()
+    }
     /// The rows of particles that are linked, fixed or kinematic.
     pub fn bound(&self) -> BTreeSet<u32> {
         let springs = self.links.springs.iter().flat_map(|link| link.ends);

@@ -15,11 +15,16 @@ use crate::support::states::{force, integrator, vector, word};
 use crate::support::{self, Random};
 
 const EDGE: &str = "no pedestrian lies exactly at the edge";
+const NO_WALL: &str = "behind the last wall stands that again, or one without length, which is not crossed";
 const ALWAYS_SET: &str = "the host sets every override";
 
 pub const EQUIVALENT: &[Equivalent] = &[
     same("keep.wgsl", "override COUNT: u32 = 1u;", "1u", "2u", ALWAYS_SET),
     same("keep.wgsl", "override SPECIES: u32 = 1u;", "1u", "2u", ALWAYS_SET),
+    same("sight.wgsl", "override COUNT: u32 = 1u;", "1u", "2u", ALWAYS_SET),
+    same("sight.wgsl", "var k = 0u", "0u", "1u", "a way from floor to floor crosses two walls, or none"),
+    same("sight.wgsl", "k < COUNT", "<", "<=", NO_WALL),
+    same("keep.wgsl", "k < COUNT", "<", "<=", NO_WALL),
     same("exits.wgsl", "override COUNT: u32 = 1u;", "1u", "2u", ALWAYS_SET),
     same("ways.wgsl", "override COUNT: u32 = 1u;", "1u", "2u", ALWAYS_SET),
     same("ways.wgsl", "override WIDTH: u32 = 1u;", "1u", "2u", ALWAYS_SET),
@@ -188,9 +193,73 @@ fn on_floor(device: &Device, stages: &mut Vec<Stage>, species: &Value) {
     }
 }
 
+/// Pedestrians all about exits that walls are before, behind and at the end of.
+fn behind_walls(device: &Device, stages: &mut Vec<Stage>) {
+    let points = |list: &[[f64; 2]]| -> Vec<DVec2> { list.iter().copied().map(DVec2::from_array).collect() };
+    let outline =
+        points(&[[-2.0, -2.0], [2.0, -2.0], [2.0, 2.0], [0.1, 2.0], [0.2, 0.5], [0.0, 0.3], [-0.1, 2.0], [-2.0, 2.0]]);
+    let hole = points(&[[-1.0, -1.25], [0.8, -1.0], [1.0, -0.8], [-0.9, -0.7]]);
+    let exit = |path: &[[f64; 2]]| Exit { name: "door".to_owned(), path: points(path), reach: 0.9 };
+    let exits =
+        vec![exit(&[[0.3, 0.4], [1.0, 1.6]]), exit(&[[-0.9, -0.5], [0.75, -0.6]]), exit(&[[-0.1, 0.15], [0.3, 0.15]])];
+    let plan = FloorPlan::new(&[Polygon { outline, holes: vec![hole] }], exits, 0.1).expect("a floor");
+    let mut random = Random::new(37);
+    let mut state = people();
+    for x in state.position_mut() {
+        *x = loop {
+            let place = (2.0 * random.vector().with_z(0.0)).as_vec3().as_dvec3();
+            if plan.holds(place.truncate()) && plan.distance(place.truncate()) > 0.01 {
+                break place;
+            }
+        };
+    }
+    state.held = [3, 64, 130].map(|id| motes::motion::Held { id, by: motes::motion::Hold::Fixed }).to_vec();
+    let bounds = Bounds { dimensions: 2, ..Bounds::default() };
+    let (integrator, solver) = (integrator("leapfrog"), Solver::default());
+    let setup = Setup { state: state.on_floor(plan), forces: Vec::new(), integrator, dt: 1.0 / 4096.0, bounds, solver };
+    let simulation = || {
+        let mut gpu = Gpu::new(&device.0, &device.1, few()).expect("a GPU");
+        gpu.pad(5);
+        Simulation::on(gpu, &setup).expect("a simulation")
+    };
+    let plans = setup.plans(simulation().backend().machine()).expect("plans");
+    for kernel in plans.step.kernels.into_iter().filter(|kernel| kernel.name.starts_with("drain")) {
+        stages.push(Stage::of("sight", simulation(), alone(kernel)));
+    }
+}
+
+/// Ways that begin and end on walls, and pass their ends: all numbers are multiples of a half, so that the side of a wall is exact.
+fn on_walls(device: &Device, stages: &mut Vec<Stage>) {
+    let outline = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]].map(DVec2::from_array).to_vec();
+    let plan = FloorPlan::new(&[Polygon { outline, holes: Vec::new() }], Vec::new(), 0.1).expect("a floor");
+    let mut random = Random::new(41);
+    let mut state = people();
+    state.position_mut().iter_mut().for_each(|x| *x = DVec3::ZERO);
+    let bounds = Bounds { dimensions: 2, ..Bounds::default() };
+    let (integrator, solver) = (integrator("leapfrog"), Solver::default());
+    let forces = vec![force("social_wall", &[])];
+    let setup = Setup { state: state.on_floor(plan), forces, integrator, dt: 1.0 / 4096.0, bounds, solver };
+    let mut gpu = Gpu::new(&device.0, &device.1, few()).expect("a GPU");
+    gpu.pad(5);
+    let mut simulation = Simulation::on(gpu, &setup).expect("a simulation");
+    simulation.step(0).expect("a start");
+    let plans = setup.plans(simulation.backend().machine()).expect("plans");
+    let mut places = || -> Vec<glam::Vec4> {
+        let half = |x: f64| (4.0 * x).round() as f32 / 2.0;
+        (0..FEW).map(|_| random.vector()).map(|x| glam::Vec4::new(half(x.x), half(x.y), 0.0, 1.0)).collect()
+    };
+    for field in [POSITION.name, "allowed_position"] {
+        simulation.backend().write_bytes(field, 0, bytemuck::cast_slice(&places())).expect("places");
+    }
+    let keep = plans.step.kernels.into_iter().find(|kernel| kernel.name == "walls keep").expect("a net");
+    stages.push(Stage::of("walls keep", simulation, alone(keep)));
+}
+
 pub fn all(device: &Device, stages: &mut Vec<Stage>) {
     on_floor(device, stages, &word("all"));
     on_floor(device, stages, &number(1.0));
+    behind_walls(device, stages);
+    on_walls(device, stages);
     for (species, anisotropy) in [(word("all"), 0.3), (number(1.0), 1.0)] {
         let more = [
             ("over", word("within")),

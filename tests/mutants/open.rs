@@ -21,7 +21,6 @@ pub const OPEN: &[Open] = &[
     open("shaders/crowds/begin.wgsl", 2),
     open("shaders/crowds/exits.wgsl", 1),
     open("shaders/crowds/inside.wgsl", 1),
-    open("shaders/crowds/keep.wgsl", 11),
     open("shaders/crowds/ways.wgsl", 6),
     open("shaders/interactions/navigate.wgsl", 26),
     open("shaders/interactions/social_wall.wgsl", 17),

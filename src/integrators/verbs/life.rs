@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use glam::DVec4;
 
+use crate::crowds::Sight;
 use crate::error::Error;
 use crate::kernel::{
     ACCELERATION, Host, Kernel, LIFE, POSITION, Pass, Problem, Reference, Scalar, Shader, VELOCITY, World,
@@ -65,15 +66,17 @@ fn of_births(name: &str, shader: Arc<Shader>, problem: &Problem, reference: Refe
 }
 
 fn drain(problem: &Problem, drain: Drain, number: u32) -> Result<Kernel, Error> {
-    let (holding, tables) = problem.holding();
-    let shader = Shader::join(&[
+    let (holding, mut tables) = problem.holding();
+    let sight = Sight::of(&drain, problem);
+    let own = [
         holding,
         crate::shader!("world.wgsl"),
         crate::shader!("nearest_image.wgsl"),
         crate::shader!("law/species.wgsl"),
         crate::shader!("solids/distance.wgsl"),
         crate::shader!("life/drain.wgsl"),
-    ])?;
+    ];
+    let shader = Shader::join(&own.into_iter().chain(sight.sources()).collect::<Vec<_>>())?;
     let (radius, size, axis) = drain.solid.parts();
     let values = [
         ("position", Scalar::Vector(drain.position)),
@@ -87,6 +90,12 @@ fn drain(problem: &Problem, drain: Drain, number: u32) -> Result<Kernel, Error> 
     let params = shader.reflection().binding("params");
     let params = params.map_or(Ok(Vec::new()), |binding| binding.packed.pack("a drain", &values))?;
     let all = problem.clone();
+    let mut sizes = Vec::new();
+    if let Some((table, count)) = sight.table() {
+        sizes.push((table.0.clone(), count));
+        tables.push(table);
+    }
+    let constants = sight.constants();
     let reference = move |host: &Host| {
         let view = crate::visit::View::of(host)?;
         let (bodies, world) = (view.particles(), host.world());
@@ -95,7 +104,7 @@ fn drain(problem: &Problem, drain: Drain, number: u32) -> Result<Kernel, Error> 
         let mut acceleration = host.write(ACCELERATION)?;
         let free = bodies.iter().filter(|body| body.is_active() && !all.is_held(body.index));
         for body in free.filter(|body| drain.species.is_none_or(|kind| kind == body.species())) {
-            if takes(&drain, body.position, &world) {
+            if takes(&drain, body.position, &world) && sight.is_free(&drain, body.position) {
                 let id = body.index;
                 life[id] = Life::Removed.word();
                 position[id].w = 0.0;
@@ -105,12 +114,12 @@ fn drain(problem: &Problem, drain: Drain, number: u32) -> Result<Kernel, Error> 
         }
         Ok(())
     };
-    let pass = Pass { uniforms: vec![("params", params)], ..Pass::new(shader, problem.capacity) };
+    let pass = Pass { constants, uniforms: vec![("params", params)], ..Pass::new(shader, problem.capacity) };
     Ok(Kernel {
         name: format!("drain {number}"),
         passes: vec![pass],
         reference: Some(Arc::new(reference)),
-        sizes: Vec::new(),
+        sizes,
         scratch: Vec::new(),
         tables,
     })

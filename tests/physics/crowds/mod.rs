@@ -7,6 +7,7 @@
 
 mod flows;
 mod forces;
+mod places;
 mod plans;
 mod walls;
 

@@ -143,7 +143,7 @@ fn the_device_finds_the_same_distances() {
         assert!(apart < 1e-5 * largest || *found >= 1e9 && *want >= 1e9, "{found} is not {want}");
     }
     // Settled: another sweep would change none, neither of the device nor of the reference.
-    for k in (0..want.len()).filter(|k| cells.is_floor(*k) && want[*k] < 1e9 && cells.known[*k].is_none()) {
+    for k in (0..want.len()).filter(|k| cells.is_floor(*k) && want[*k] < 1e9 && cells.known(*k).is_none()) {
         let far = cells.next(k).map(|next| next.map_or(1e9, |next| want[next]));
         let (a, b) = (far[0].min(far[1]), far[2].min(far[3]));
         let apart = (a - b).abs();
