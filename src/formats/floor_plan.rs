@@ -116,9 +116,10 @@ impl Reader {
                 at.x, at.y
             ));
         }
-        let height = at.z.unwrap_or(0.0);
+        // −0 is 0.
+        let height = at.z.unwrap_or(0.0) + 0.0;
         let floor = *self.height.get_or_insert(height);
-        if floor != height {
+        if floor.total_cmp(&height).is_ne() {
             return Err(format!(
                 "its point {} {} is at the height {height}, and others at {floor}: a plan is one flat floor; write each floor into its own \
                  file, or the points without Z",
