@@ -6,8 +6,15 @@ use crate::crowds::{self, Press};
 use crate::error::Error;
 use crate::simulation::Setup;
 
-/// Steps above this part of the stability limit are remarked on: sliding velocities change their sign in each of them.
+/// Steps above this part of the stability limit of two are remarked on at least: sliding velocities change their sign in each of them.
 const ALTERNATING: f64 = 0.5;
+
+/// The most pedestrians that one may touch in a plane: discs of the smallest radius around one of the largest.
+fn contacts(radii: impl Iterator<Item = f64>) -> f64 {
+    let (small, large) = radii.filter(|r| *r > 0.0).fold((f64::INFINITY, 0.0_f64), |(a, b), r| (a.min(r), b.max(r)));
+    // Of one radius six: rounding must not make five of them.
+    if large > 0.0 { (std::f64::consts::PI / (small / (small + large)).asin() + 1e-9).floor() } else { 1.0 }
+}
 
 /// The fastest rate of a contact of two pedestrians that meet head on, each at the largest speed that there is.
 struct Fastest {
@@ -39,17 +46,23 @@ impl Fastest {
 pub fn remarks(setup: &Setup) -> Result<Vec<Remark>, Error> {
     ways(setup)?;
     let (state, dt) = (&setup.state, setup.dt);
+    let mut remarks: Vec<Remark> = walls(setup).into_iter().collect();
     let presses = setup.forces.iter().filter_map(|force| force.properties().presses);
     let column = |name: &str| state.scalar(name).unwrap_or_default().iter().copied();
-    // Of what is there at the start.
-    let mass = state.mass().iter().copied().filter(|mass| *mass > 0.0).fold(f64::INFINITY, f64::min);
-    let speeds = state.velocity().iter().map(|v| v.length()).chain(column("desired_speed"));
+    // Of what is there at the start, and what is to be spawned, which has no mass until then.
+    let masses = state.mass().iter().copied().chain(state.births.iter().map(|birth| birth.mass));
+    let mass = masses.filter(|mass| *mass > 0.0).fold(f64::INFINITY, f64::min);
+    let velocities = state.velocity().iter().chain(state.births.iter().map(|birth| &birth.velocity));
+    let speeds = velocities.map(|v| v.length()).chain(column("desired_speed"));
     let extremes = (mass, speeds.fold(0.0, f64::max), column("radius").fold(0.0, f64::max));
     let Some(fastest) = presses.map(|press| Fastest::of(&press, extremes)).min_by(|a, b| a.dt.total_cmp(&b.dt)) else {
-        return Ok(Vec::new());
+        return Ok(remarks);
     };
-    if dt <= ALTERNATING * fastest.dt {
-        return Ok(Vec::new());
+    // Each contact acts along, or across, its own direction only: of n all around half of the sum along any one.
+    let contacts = contacts(column("radius"));
+    let safe = fastest.dt * ALTERNATING.min(2.0 / contacts);
+    if dt <= safe {
+        return Ok(remarks);
     }
     let Fastest { overlap, what, dt: limit } = fastest;
     let text = format!(
@@ -58,13 +71,36 @@ pub fn remarks(setup: &Setup) -> Result<Vec<Remark>, Error> {
         digits(overlap),
         digits(limit)
     );
-    let way =
-        format!("the largest dt that is safe is {}: set it, or choose a smaller `{what}`", digits(ALTERNATING * limit));
+    let way = format!("the largest dt that is safe is {}: set it, or choose a smaller `{what}`", digits(safe));
     if dt > limit {
         return Err(Error::Scene(format!("{text}: they would be thrown about, and through walls; {way}")));
     }
-    let remark = Remark::warning("long-step", format!("{text}: sliding velocities change their sign in each step"));
-    Ok(vec![remark.with("dt", dt).with("largest_dt", ALTERNATING * limit).advice(way)])
+    let crowd = format!(
+        "in a crowd each touches {contacts} at most, whose {what} together is stable up to dt = {}",
+        digits(limit * 2.0 / contacts)
+    );
+    let remark = Remark::warning(
+        "long-step",
+        format!("{text}; {crowd}: beyond half of a limit velocities change their sign in each step"),
+    );
+    let remark = remark.with("dt", dt).with("largest_dt", safe).with("contacts", contacts);
+    remarks.push(remark.advice(way));
+    Ok(remarks)
+}
+
+/// Where nothing keeps pedestrians on the floor of a plan.
+fn walls(setup: &Setup) -> Option<Remark> {
+    let keeps_in = setup.forces.iter().any(|force| force.properties().keeps_in);
+    let plan = setup.state.floor_plan.as_ref().filter(|_| !keeps_in)?;
+    let text = format!(
+        "the plan has {} walls, and no force makes pedestrians stop at them: those that are pushed, or are fast, walk through",
+        plan.segments().len()
+    );
+    Some(
+        Remark::warning("open-walls", text)
+            .with("walls", plan.segments().len() as f64)
+            .advice("add a [[force]] of kind = \"social_wall\""),
+    )
 }
 
 /// Refuses cells too large for pedestrians, pedestrians that have no way to an exit, and exits to which no way leads.
@@ -129,17 +165,41 @@ mod tests {
         Setup { state, forces: vec![(entry.build)(&settings)], integrator, dt, bounds, solver }
     }
 
-    /// At 2 m/s each: g = 2 · 2 / √(2 · 1.2e5 / 80) = 0.0730 m, friction 2 κ g / m = 438 / s, so that steps of 2 / 438 = 4.56 ms are the limit,
-    /// and half of that is safe. Without friction repulsion is: ω² = 3000 + 2 · 2000 / (0.08 · 80) e^(0.0730 / 0.08) = 4557 / s², 2 / ω = 29.6 ms.
+    /// Discs of one radius have six around one; of 0.25 around 0.35 there are π / asin(0.25 / 0.6) = 7.3; a small one has room beside many large ones, of
+    /// which the widest counts.
+    #[test]
+    fn contacts_of_discs() {
+        assert_eq!(
+            [vec![0.3, 0.3], vec![0.25, 0.35], vec![0.3], vec![0.0, 0.1, 1.0], vec![]].map(|r| contacts(r.into_iter())),
+            [6.0, 7.0, 6.0, 34.0, 1.0]
+        );
+    }
+
+    /// Pedestrians that an emitter is to spawn have no mass at the start, and weigh a quarter of the others then: friction is four times as fast per overlap, of
+    /// which there is half.
+    #[test]
+    fn births_count() {
+        let mut later = setup(0.0015, 2.0, 2.4e5);
+        later.state.births =
+            vec![crate::life::Birth { id: 1, time: 1.0, velocity: DVec3::ZERO, mass: 20.0, guided: 0.0, emitter: 0 }];
+        let warned = remarks(&later).expect("a warning");
+        assert!((warned[0].number("largest_dt").expect("a limit") - 2.0 / 876.4 / 3.0).abs() < 2e-6, "{warned:?}");
+        later.state.births[0].velocity = DVec3::X * 4.0;
+        assert!(remarks(&later).expect_err("too long").to_string().contains("two that meet at 4 each"));
+    }
+
+    /// At 2 m/s each: g = 2 · 2 / √(2 · 1.2e5 / 80) = 0.0730 m, friction 2 κ g / m = 438 / s, so that steps of 2 / 438 = 4.56 ms are the limit
+    /// of two; of six around one, whose directions are all about, it is a third of that. Without friction repulsion is: ω² = 3000 + 2 · 2000 / (0.08 · 80) e^(0.0730 / 0.08) = 4557 / s², 2 / ω = 29.6 ms.
     #[test]
     fn steps_that_are_too_long_are_refused_with_the_longest() {
-        assert!(remarks(&setup(0.002, 2.0, 2.4e5)).expect("short").is_empty());
-        let warned = remarks(&setup(0.004, 2.0, 2.4e5)).expect("a warning");
+        assert!(remarks(&setup(0.0015, 2.0, 2.4e5)).expect("short").is_empty());
+        let warned = remarks(&setup(0.002, 2.0, 2.4e5)).expect("a warning");
         let largest = warned[0].number("largest_dt").expect("a limit");
-        assert!(warned[0].id == "long-step" && (largest - 0.5 * 2.0 / 438.2).abs() < 2e-6, "{largest}");
+        assert!(warned[0].id == "long-step" && (largest - 2.0 / 438.2 / 3.0).abs() < 2e-6, "{largest}");
         let why = remarks(&setup(0.005, 2.0, 2.4e5)).expect_err("long").to_string();
-        assert!(why.contains("friction") && why.contains("dt = 0.00456") && why.contains("0.00228"), "{why}");
-        assert!(remarks(&setup(0.014, 2.0, 0.0)).expect("short").is_empty());
+        assert!(why.contains("friction") && why.contains("dt = 0.00456") && why.contains("0.00152"), "{why}");
+        assert!(remarks(&setup(0.009, 2.0, 0.0)).expect("short").is_empty());
+        assert_eq!(remarks(&setup(0.011, 2.0, 0.0)).expect("a warning").len(), 1);
         let why = remarks(&setup(0.03, 2.0, 0.0)).expect_err("long").to_string();
         assert!(why.contains("repulsion") && why.contains("dt = 0.0296"), "{why}");
     }

@@ -1,6 +1,7 @@
 //! Walls of a plan, for pedestrians.
 
 use super::{Component, EACH, Law, Properties, SPECIES, Stage, evaluate, params, species};
+use crate::component::Largest;
 use crate::crowds::{self, Press};
 use crate::error::Error;
 use crate::kernel::{Bounds, Column, Plan, Problem, Scalar, Side};
@@ -64,7 +65,12 @@ impl Component for SocialWall {
         Err(Error::Scene(format!("social_wall: {why}")))
     }
     fn properties(&self) -> Properties {
+        let limits = [
+            (self.0.number("range"), "beyond its range a wall does not act, not even where it is touched"),
+            (2.0 * crowds::STEEPEST * self.0.number("decay"), "the repulsion grows by e for each `decay` of an overlap, and would exceed single precision"),
+        ];
         Properties {
+            largest: limits.map(|(value, why)| Largest { column: "radius", value, why }).to_vec(),
             constrains: true,
             keeps_in: true,
             dissipates: vec!["walls"],

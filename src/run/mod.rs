@@ -70,6 +70,7 @@ pub use writer::Writer;
 
 pub use crate::measure::Moment;
 
+use crate::crowds::{CORRECTIONS, corrected};
 use crate::error::Error;
 use crate::formats::{self, Precision};
 use crate::kernel::{Backend, Bounds, Columns, POSITION, Side};
@@ -298,6 +299,11 @@ impl Run {
         }
         if self.energies().last().is_none_or(|row| row.step != simulation.steps()) {
             self.write(simulation, &course, progress).await?;
+        }
+        if simulation.columns().get(CORRECTIONS).is_some()
+            && let Some(text) = corrected(&simulation.snapshot().await?)
+        {
+            progress.warning(&text);
         }
         let steps = simulation.steps() - begun;
         if let Some(film) = &mut self.film {

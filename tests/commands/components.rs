@@ -117,3 +117,39 @@ fn every_integrator_runs_by_the_command() {
     }
     assert!(faults.is_empty(), "{}", faults.join("\n"));
 }
+
+/// Walls that put pedestrians back say so at the end of a run, with the number that the column has; forces that keep them off leave nothing to say.
+#[test]
+fn corrections_by_walls_are_reported() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let scene = |repulsion: u32| {
+        format!(
+            "[simulation]\ndt = 0.05\nsteps = 60\nintegrator = \"leapfrog\"\n{}speed_spread = 0\n[[force]]\nkind = \"walk\"\ndirection = [-1, 0, 0]\n\
+             [[force]]\nkind = \"social_wall\"\nrepulsion = {repulsion}\nstiffness = 0\nfriction = 0\n{END}",
+            particles("social_wall")
+        )
+    };
+    std::fs::write(folder.path().join("room.wkt"), include_str!("../../scenes/room.wkt")).expect("a plan");
+    let words = |repulsion: u32| {
+        let file = folder.path().join(format!("scene_{repulsion}.toml"));
+        std::fs::write(&file, scene(repulsion)).expect("a scene");
+        let mut command = Command::new(env!("CARGO_BIN_EXE_motes"));
+        let out = folder.path().join(format!("out_{repulsion}"));
+        let output = command.arg("run").arg(&file).arg("--output").arg(&out).stdin(Stdio::null()).output();
+        let output = output.expect("it starts");
+        let words = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert_eq!(output.status.code(), Some(0), "{words}");
+        (words, last_table(&out))
+    };
+    let (said, table) = words(0);
+    let mut rows = table.lines();
+    let column = rows.next().expect("a head").split(',').position(|name| name == "wall_corrections").expect("it");
+    let counts: Vec<f64> =
+        rows.map(|row| row.split(',').nth(column).expect("a cell").parse().expect("a number")).collect();
+    let (all, of) = (counts.iter().sum::<f64>(), counts.iter().filter(|count| **count > 0.0).count());
+    assert!(
+        all > 9.0 && said.contains(&format!("{of} pedestrians were put back in front of walls, {all} times in all")),
+        "{said}"
+    );
+    assert!(!words(2000).0.contains("put back"));
+}

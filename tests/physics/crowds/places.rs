@@ -220,3 +220,26 @@ fn spawned_pedestrians_stay_where_they_are() {
     assert!((end.position()[1] - DVec3::new(8.0, 3.0, 0.0)).length() < 1e-3, "{}", end.position()[1]);
     assert_eq!(end.scalar("wall_corrections").expect("counts"), [0.0, 0.0]);
 }
+
+/// Where nothing stops at walls that is said; with `social_wall` it is not. Its range is no smaller than a pedestrian, and its `decay` no smaller than
+/// an eightieth of one, beyond which exp(R / B) has no number.
+#[test]
+fn walls_that_nothing_stops_at_are_remarked_on() {
+    let room = || rooms(true, vec![exit(&[[1.0, 4.0], [1.0, 6.0]], 0.25)]).expect("rooms");
+    let ids = |setup: &Setup| -> Vec<&str> {
+        block_on(motes::diagnose::diagnose(setup)).expect("remarks").iter().map(|remark| remark.id).collect()
+    };
+    let mut setup = resting(room(), &[[3.0, 3.0]]);
+    assert!(ids(&setup).contains(&"open-walls"));
+    setup.forces.push(force("social_wall", &[]));
+    assert!(!ids(&setup).contains(&"open-walls"));
+    let of = |key: &'static str, value: f64| {
+        let wall = force("social_wall", &[(key, motes::settings::Value::Number(value))]);
+        Setup { forces: vec![wall], ..resting(room(), &[[3.0, 3.0]]) }.check()
+    };
+    for (key, least) in [("range", 0.3), ("decay", 0.3 / 80.0)] {
+        assert!(of(key, 1.001 * least).is_ok(), "{key}");
+        let why = of(key, 0.999 * least).expect_err("too small").to_string();
+        assert!(why.contains("radius"), "{why}");
+    }
+}
