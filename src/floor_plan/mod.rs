@@ -35,7 +35,22 @@ pub struct FloorPlan {
     exits: Vec<Exit>,
     cell: f64,
     /// Its cells, which follow from the rest, after they have been asked for.
-    cells: OnceLock<Arc<Cells>>,
+    cells: Asked,
+}
+
+/// Cells after they have been asked for. Plans are the same whether or not they were.
+#[derive(Clone, Default)]
+struct Asked(OnceLock<Arc<Cells>>);
+
+impl PartialEq for Asked {
+    fn eq(&self, _: &Self) -> bool {
+        true
+    }
+}
+impl std::fmt::Debug for Asked {
+    fn fmt(&self, out: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        out.write_str("…")
+    }
 }
 
 /// Coordinates are known to this part of a cell in single precision.
@@ -74,7 +89,7 @@ impl FloorPlan {
         ring::apart(&rings)?;
         nested::check(&rings)?;
         let segments = wall::segments(&rings);
-        let plan = Self { rings, segments, exits, cell, cells: OnceLock::new() };
+        let plan = Self { rings, segments, exits, cell, cells: Asked::default() };
         plan.cells_fit()?;
         plan.resolved()?;
         plan.exits_fit()?;
