@@ -77,7 +77,7 @@ impl FloorPlan {
     /// Its cells, which are kept once they have been asked for.
     #[must_use]
     pub fn cells(&self) -> Arc<Cells> {
-        self.cells.get_or_init(|| Arc::new(self.divided())).clone()
+        self.cells.0.get_or_init(|| Arc::new(self.divided())).clone()
     }
     /// The cells with their centres on the floor from which an exit is near, with no wall between, and the distance from where pedestrians have
     /// left through it; a cell may be listed several times.
