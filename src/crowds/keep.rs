@@ -8,26 +8,12 @@ use super::walls::{WALLS, rounded, table};
 use crate::error::Error;
 use crate::floor_plan::FloorPlan;
 use crate::kernel::{Column, Field, Host, Kernel, Kind as Element, POSITION, Pass, Problem, Shader, VELOCITY};
-use crate::state::State;
 
 /// The last position of each pedestrian that no wall was before, and in `w` how often it was put back there.
 pub(crate) const ALLOWED: Field<Vec4> = Field::new("allowed_position");
 
 /// The name of that number.
 pub(crate) const CORRECTIONS: &str = "wall_corrections";
-
-/// How often the walls of a plan put pedestrians back, in a sentence, if they did.
-pub(crate) fn corrected(state: &State) -> Option<String> {
-    let counts = state.scalar(CORRECTIONS).unwrap_or_default();
-    let (worst, most) = counts.iter().enumerate().max_by(|a, b| a.1.total_cmp(b.1)).filter(|(_, most)| **most > 0.0)?;
-    let (all, of): (f64, usize) = (counts.iter().sum(), counts.iter().filter(|count| **count > 0.0).count());
-    let (id, at) = (state.ids().get(worst).copied().unwrap_or_default(), state.position()[worst]);
-    Some(format!(
-        "{of} pedestrians were put back in front of walls, {all} times in all, most often particle {id}, {most} times, which is at {:.3} {:.3}: \
-         forces did not keep them off, and their times are not to be trusted; choose a smaller dt",
-        at.x, at.y
-    ))
-}
 
 /// The columns of that.
 pub(crate) fn allowed_columns() -> Vec<Column> {

@@ -13,7 +13,9 @@ mod sight;
 mod walls;
 mod ways;
 
-pub(crate) use keep::{CORRECTIONS, allowed_columns, begin, corrected, keep};
+#[cfg(feature = "scene")]
+pub(crate) use keep::CORRECTIONS;
+pub(crate) use keep::{allowed_columns, begin, keep};
 pub(crate) use places::{have_ways, on_the_floor, reach_exits};
 pub(crate) use press::{DECAY, FRICTION, REPULSION, STIFFNESS};
 pub use press::{Press, STEEPEST};

@@ -22,6 +22,7 @@ pub use advice::advice;
 pub use advice::{Conserved, conserved};
 #[doc(hidden)]
 pub use births::forecast;
+#[cfg(feature = "scene")]
 pub(crate) use crowds::ways as have_ways;
 #[doc(hidden)]
 pub use flow::{flows, hurry};

@@ -17,6 +17,7 @@
 //! ```
 
 mod checkpoint;
+mod corrections;
 mod course;
 mod film;
 mod folder;
@@ -70,7 +71,7 @@ pub use writer::Writer;
 
 pub use crate::measure::Moment;
 
-use crate::crowds::{CORRECTIONS, corrected};
+use crate::crowds::CORRECTIONS;
 use crate::error::Error;
 use crate::formats::{self, Precision};
 use crate::kernel::{Backend, Bounds, Columns, POSITION, Side};
@@ -301,7 +302,7 @@ impl Run {
             self.write(simulation, &course, progress).await?;
         }
         if simulation.columns().get(CORRECTIONS).is_some()
-            && let Some(text) = corrected(&simulation.snapshot().await?)
+            && let Some(text) = corrections::corrected(&simulation.snapshot().await?)
         {
             progress.warning(&text);
         }

@@ -153,3 +153,45 @@ fn corrections_by_walls_are_reported() {
     );
     assert!(!words(6000).0.contains("put back"));
 }
+
+/// A state with which a run goes on is asked for the floor and for ways, as that of a start is.
+#[test]
+fn states_that_go_on_are_on_the_floor_with_a_way() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let scene = "[simulation]\ndt = 0.001\nsteps = 4\nintegrator = \"leapfrog\"\n[box]\nsize = [30, 30, 0]\nboundary = \"open\"\n[plan]\n\
+         wkt = \"MULTIPOLYGON (((0 0, 5 0, 5 10, 0 10, 0 0)), ((5.1 0, 10 0, 10 10, 5.1 10, 5.1 0))) LINESTRING (1 1, 1 2)\"\n\
+         [[particles]]\nshape = \"crowd\"\ncount = 3\nsize = [1, 3, 0]\ncenter = [3, 5, 0]\n[[force]]\nkind = \"navigate\"\n\
+         [[force]]\nkind = \"social_wall\"\n";
+    let file = folder.path().join("scene.toml");
+    std::fs::write(&file, format!("{scene}{END}")).expect("a scene");
+    let words = |name: &str, more: &[&str]| {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_motes"));
+        command.arg("run").arg(&file).arg("--output").arg(folder.path().join(name)).args(more);
+        let output = command.stdin(Stdio::null()).output().expect("it starts");
+        (output.status.code(), String::from_utf8_lossy(&output.stderr).into_owned())
+    };
+    let (code, said) = words("whole", &["--steps", "2"]);
+    assert_eq!(code, Some(0), "{said}");
+    let table = last_table(&folder.path().join("whole"));
+    let from = |name: &str, x: Option<&str>| {
+        let moved =
+            |row: &str| match (row.split_once(',').and_then(|(id, rest)| Some((id, rest.split_once(',')?.1))), x) {
+                (Some(("0", rest)), Some(x)) => format!("0,{x},{rest}"),
+                _ => row.to_owned(),
+            };
+        let text: Vec<String> = table.lines().map(moved).collect();
+        std::fs::create_dir(folder.path().join(format!("from_{name}"))).expect("a folder");
+        let state = folder.path().join(format!("from_{name}")).join("snapshot_2.csv");
+        std::fs::write(&state, text.join("\n") + "\n").expect("a state");
+        words(name, &["--from", &state.to_string_lossy()])
+    };
+    let (code, said) = from("same", None);
+    assert_eq!(code, Some(0), "{said}");
+    for (name, x, why) in [
+        ("off", "12", "1 particles are in a wall or off the floor of the plan, the first of them particle 0 at 12 "),
+        ("sealed", "7", "1 particles have no way to an exit, the first of them particle 0 at 7 "),
+    ] {
+        let (code, said) = from(name, Some(x));
+        assert!(code != Some(0) && said.contains(why), "{code:?}: {said}");
+    }
+}
