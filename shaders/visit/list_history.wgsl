@@ -5,13 +5,14 @@ const REMEMBERS: bool = true;
 
 // The value stored by the last step; 0 where the pair was not in range then, or nothing was stored.
 fn recall(you: Particle, word: u32) -> f32 {
-    if you.pair == NONE || word >= SLOTS { return 0.0; }
+    if word >= SLOTS { return beyond(word); }
+    if you.pair == NONE { return 0.0; }
     return history[word_of(you.pair, world.step, word)];
 }
 
 // What this step leaves. A particle is no pair with itself, and there are no more words than slots.
 fn remember(you: Particle, word: u32, value: f32) {
-    if you.pair != NONE && word < SLOTS { history[word_of(you.pair, world.step + 1u, word)] = value; }
+    if word >= SLOTS { beyond(word); } else if you.pair != NONE { history[word_of(you.pair, world.step + 1u, word)] = value; }
 }
 
 // This step stores nothing, until the law does.

@@ -163,6 +163,11 @@ impl Shader {
     pub fn written(&self) -> &[String] {
         &self.written
     }
+    /// The words of the history of pairs that a user's law names.
+    #[must_use]
+    pub(crate) fn words(&self) -> own::Words {
+        own::words(&self.module)
+    }
     /// The joined text.
     #[must_use]
     pub fn text(&self) -> &str {

@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use super::{Plans, Simulation};
 use crate::error::Error;
 use crate::kernel::{ALARM, ALARM_WORDS, Array, Backend, Element, LAW, Plan, QUIET};
+use crate::visit::Law;
 
 /// The marks by which an alarm names users' laws, and their names with their files.
 pub type Marks = BTreeMap<u32, String>;
@@ -35,14 +36,14 @@ impl<B: Backend> Simulation<B> {
     /// [`Error::TooManyNeighbors`], [`Error::CutShort`], [`Error::Endless`], [`Error::TooShort`], or what reading says.
     pub async fn check(&mut self) -> Result<(), Error> {
         let mut alarm = self.alarm().await?;
-        let [.., cut, endless, _] = alarm;
+        let [.., cut, endless, _, _] = alarm;
         // Sums that lack neighbours lead to numbers that are not finite, and to runaway speeds.
         if cut == u32::MAX && endless == u32::MAX && self.settle().await? {
             alarm = self.alarm().await?;
         }
         let [done, .., fast, particle] = [alarm[0], alarm[1], alarm[3], alarm[4]];
         // A runaway leads to numbers that are not finite in the end: the first cause is reported.
-        let [.., cut, endless, _] = alarm;
+        let [.., cut, endless, _, _] = alarm;
         if fast != u32::MAX && fast <= done && cut == u32::MAX && endless == u32::MAX {
             let particle = self.named(particle);
             return Err(Error::Runaway { particle, step: u64::from(fast.saturating_sub(1)) });
@@ -75,13 +76,17 @@ impl<B: Backend> Simulation<B> {
     }
     /// Whether laws were evaluated completely, all numbers are finite, and searches have found all particles.
     pub(super) fn sound(&self, alarm: &[u32; ALARM_WORDS]) -> Result<(), Error> {
-        let [done, particle, crowded, .., cut, endless, folded] = *alarm;
+        let [done, particle, crowded, .., cut, endless, folded, beyond] = *alarm;
         if folded != u32::MAX {
             return Err(Error::Device(format!(
                 "the driver folds compensated sums, so that precision = \"{}\" would keep no more digits than single: choose precision = \
                  \"single\", another --adapter, or --backend cpu",
                 self.setup.integrator.precision().name()
             )));
+        }
+        if beyond != u32::MAX {
+            let laws = self.setup.forces.iter().flat_map(|force| force.laws()).find(Law::remembers);
+            return Err(laws.map_or_else(|| Error::Device("a word of no history".to_owned()), |law| law.lacks(!beyond)));
         }
         let law = |mark: u32| self.marks.get(&mark).cloned().unwrap_or_else(|| "a law".to_owned());
         // A wrong law leads to numbers that are not finite, and to searches that do not end.

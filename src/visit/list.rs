@@ -8,7 +8,7 @@ pub use reference::{Memory, remembering};
 
 use super::{Law, Over};
 use crate::error::Error;
-use crate::kernel::{Kernel, ListShape, Pass, Problem, Shader, Threads};
+use crate::kernel::{ALARM, ALARM_WORDS, Kernel, ListShape, Pass, Problem, Shader, Threads};
 use crate::neighbors::{HISTORY, LIST, List};
 
 /// Rows of one dispatch, at most. It is an integer of workgroups.
@@ -45,6 +45,19 @@ pub fn shared(laws: &[Law], problem: &Problem) -> Result<Option<ListShape>, Erro
     Ok(shape.map(|shape| shape.with_room(UNCOUNTED, problem.capacity)))
 }
 
+impl Law {
+    /// The error of a law with history that names a word beyond its slots.
+    pub(crate) fn lacks(&self, word: u32) -> Error {
+        let Over::List { slots, .. } = self.over else { return Error::Scene(format!("`{}` has no slots", self.name)) };
+        Error::Scene(format!(
+            "{}: the law names word {word} of a pair's history, counted from 0, and slots = {slots}: what it remembers there would be lost; set \
+             slots = {}",
+            self.wgsl.file,
+            word.saturating_add(1)
+        ))
+    }
+}
+
 /// The kernel of a law over the list, with `slots` words of history.
 pub fn kernel(law: Law, range: f64, slots: u32, problem: &Problem) -> Result<Kernel, Error> {
     law.requires_gather()?;
@@ -71,12 +84,27 @@ pub fn kernel(law: Law, range: f64, slots: u32, problem: &Problem) -> Result<Ker
     ];
     sources.extend(law.choice());
     sources.extend(law.alarm_file());
+    let mut sizes = law.alarm();
     match slots {
         0 => sources.push(crate::shader!("visit/list_plain.wgsl")),
         _ => sources.extend([crate::shader!("neighbors/history.wgsl"), crate::shader!("visit/list_history.wgsl")]),
     }
     sources.extend(law.files(problem));
-    let shader = Shader::join(&sources)?;
+    let known = [sources.clone(), vec![crate::shader!("own/no_words.wgsl")]].concat();
+    let mut shader = Shader::join(if slots > 0 { &known } else { &sources })?;
+    // Contacts of ours name words beyond those that a material keeps, which are 0.
+    let words = shader.words();
+    if let Some(word) = words.highest.filter(|word| slots > 0 && law.wgsl.law && *word >= slots) {
+        return Err(law.lacks(word));
+    }
+    if slots > 0 && law.wgsl.law && words.computed {
+        if sizes.is_empty() {
+            sources.push(crate::shader!("own/alarm.wgsl"));
+            sizes.push((ALARM.name.into(), ALARM_WORDS as u64));
+        }
+        sources.push(crate::shader!("own/words.wgsl"));
+        shader = Shader::join(&sources)?;
+    }
     let (uniforms, mut constants) = (law.uniforms(&shader)?, problem.constants(&shader));
     constants.extend(law.mark());
     constants.push(("RANGE", range));
@@ -96,7 +124,6 @@ pub fn kernel(law: Law, range: f64, slots: u32, problem: &Problem) -> Result<Ker
         passes.push(Pass { threads: Threads::new(rows), work, ..pass });
         first += rows;
     }
-    let mut sizes = law.alarm();
     sizes.extend([(LIST.into(), list.elements(problem.capacity)), (HISTORY.into(), list.words(problem.capacity))]);
     Ok(Kernel { name: law.name, passes, reference: law.reference, sizes, scratch: Vec::new(), tables: Vec::new() })
 }

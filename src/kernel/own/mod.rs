@@ -8,6 +8,7 @@ mod loops;
 mod reach;
 mod signature;
 mod tokens;
+mod words;
 
 use naga::valid::ModuleInfo;
 use naga::{Function, Handle, Module, Span};
@@ -22,6 +23,7 @@ pub use directives::hoisted;
 pub use loops::{has_loops, watched_sources};
 pub use signature::mismatch;
 pub use tokens::tokens;
+pub use words::{Words, words};
 
 /// Joined sources, some of them a user's, as parsed by naga.
 pub struct Joined<'a> {

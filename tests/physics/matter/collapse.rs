@@ -1,28 +1,12 @@
 //! Columns of grains that collapse, and drums that turn, against what was measured.
 
-use std::path::PathBuf;
+use motes::State;
+use motes::scene::SCENES;
 
-use motes::scene::{Options, SCENES, Scene, Source};
-use motes::{Simulation, State};
-use pollster::block_on;
-
-use crate::support;
-
-/// States of a built-in scene on the device, at these steps.
+/// States of a built-in scene, at these steps.
 fn states(name: &str, overrides: &[String], at: &[u32]) -> Vec<State> {
     let scene = SCENES.iter().find(|scene| scene.name == name).expect("a built-in scene");
-    let source = Source::Text { name: format!("{name}.toml"), text: scene.text.to_owned(), folder: PathBuf::from(".") };
-    let scene = Scene::load(&source, overrides, &Options::default()).unwrap_or_else(|faults| panic!("{faults}"));
-    let setup = support::scenes::setup(scene);
-    let shared = support::device();
-    let mut simulation = Simulation::new(&shared.found.device, &shared.found.queue, &setup).expect("a simulation");
-    let mut done = 0;
-    let mut state = |step: &u32| {
-        simulation.step(step - done).expect("steps");
-        done = *step;
-        block_on(simulation.snapshot()).expect("a state")
-    };
-    at.iter().map(&mut state).collect()
+    super::states(scene.text.to_owned(), overrides, at)
 }
 
 /// The column's width, that of the channel and the diameter of a grain, in metres.

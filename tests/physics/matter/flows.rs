@@ -1,13 +1,7 @@
 //! Grains in heaps and hoppers, against what was measured: a heap stands by resistance to rolling, and a hopper empties by
 //! Beverloo's law.
 
-use std::path::PathBuf;
-
-use motes::scene::{Options, Scene, Source};
-use motes::{Simulation, State};
-use pollster::block_on;
-
-use crate::support;
+use motes::State;
 
 /// Spheres of 10 mm in a cylinder, and what all walls are made of.
 const GRAINS: &str = r#"
@@ -73,21 +67,13 @@ name = "gate"
 keys = [{ time = 0.15 }, { time = 0.17, shift = [0.3, 0, 0] }]
 "#;
 
-/// States of a scene on the device, at these steps.
+/// States of these grains in such walls, at these steps.
 fn states(wall: &str, dt: f64, overrides: &[String], at: &[u32]) -> Vec<State> {
-    let text = format!("[simulation]\ndt = {dt}\nsteps = 1\nintegrator = \"leapfrog\"\n{GRAINS}{wall}");
-    let source = Source::Text { name: "grains.toml".to_owned(), text, folder: PathBuf::from(".") };
-    let scene = Scene::load(&source, overrides, &Options::default()).unwrap_or_else(|faults| panic!("{faults}"));
-    let setup = support::scenes::setup(scene);
-    let shared = support::device();
-    let mut simulation = Simulation::new(&shared.found.device, &shared.found.queue, &setup).expect("a simulation");
-    let mut done = 0;
-    let mut state = |step: &u32| {
-        simulation.step(step - done).expect("steps");
-        done = *step;
-        block_on(simulation.snapshot()).expect("a state")
-    };
-    at.iter().map(&mut state).collect()
+    super::states(
+        format!("[simulation]\ndt = {dt}\nsteps = 1\nintegrator = \"leapfrog\"\n{GRAINS}{wall}"),
+        overrides,
+        at,
+    )
 }
 
 /// The height of the highest centre of what was a column of 0.16 m and 336 grains, after 0.9 s.

@@ -14,11 +14,14 @@ mod ions;
 mod thermostat;
 mod walls;
 
+use std::path::PathBuf;
+
 use crate::support::states::integrator;
 use glam::DVec3;
 use motes::forces::Component;
 use motes::kernel::{Array, Plan};
 use motes::lockstep::compare;
+use motes::scene::{Options, Scene, Source};
 use motes::{Bounds, Cpu, Setup, Simulation, Solver, State};
 
 /// Particles on a lattice that is a little disordered, so that no two are close, of three species, with masses about 1.
@@ -53,6 +56,22 @@ fn setup(state: State, forces: Vec<Box<dyn Component>>, bounds: Bounds, dt: f64)
 
 pub fn on_cpu(setup: &Setup) -> Simulation<Cpu> {
     Simulation::on(Cpu::new(setup.check().expect("a setup")).expect("some"), setup).expect("a simulation")
+}
+
+/// States of the text of a scene on the device, at these steps.
+pub fn states(text: String, overrides: &[String], at: &[u32]) -> Vec<State> {
+    let source = Source::Text { name: "grains.toml".to_owned(), text, folder: PathBuf::from(".") };
+    let scene = Scene::load(&source, overrides, &Options::default()).unwrap_or_else(|faults| panic!("{faults}"));
+    let setup = crate::support::scenes::setup(scene);
+    let shared = crate::support::device();
+    let mut simulation = Simulation::new(&shared.found.device, &shared.found.queue, &setup).expect("a simulation");
+    let mut done = 0;
+    let mut state = |step: &u32| {
+        simulation.step(step - done).expect("steps");
+        done = *step;
+        pollster::block_on(simulation.snapshot()).expect("a state")
+    };
+    at.iter().map(&mut state).collect()
 }
 
 /// Every kernel of the steps of a setup on the device agrees with its reference, some steps long; what the kernels of these names
