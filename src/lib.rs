@@ -107,6 +107,9 @@ pub mod tree;
 pub mod typed;
 #[doc(hidden)]
 pub mod updaters;
+#[cfg(feature = "view")]
+#[doc(hidden)]
+pub mod view;
 #[doc(hidden)]
 pub mod visit;
 

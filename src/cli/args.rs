@@ -40,6 +40,8 @@ pub enum Command {
     Run(RunArgs),
     /// Resume a run that was stopped or killed, from the newest checkpoint in its folder
     Resume(ResumeArgs),
+    /// Open a window in which a scene runs: turn it, pause it, and change its settings while it moves
+    View(ViewArgs),
     /// Check a scene, and predict memory and time, without running it
     Check(CheckArgs),
     /// Print what one step of a scene does, kernel by kernel; with --law, the language of a law of your own
@@ -109,6 +111,34 @@ pub struct SceneArgs {
     pub auto_substeps: bool,
     #[command(flatten)]
     pub device: DeviceArgs,
+}
+
+#[derive(Debug, Clone, ClapArgs)]
+pub struct ViewArgs {
+    /// A scene file, or the name of a scene that `motes scenes` lists
+    #[arg(default_value = "galaxy")]
+    pub scene: String,
+    /// Set a value of the scene, such as simulation.dt=0.01 or force.0.g=2; may be repeated
+    #[arg(long = "set", value_name = "KEY=VALUE")]
+    pub overrides: Vec<String>,
+    /// Multiply the number of particles of every shape and emitter by this factor; fluids get another spacing
+    #[arg(long, value_name = "FACTOR", value_parser = positive)]
+    pub scale: Option<f64>,
+    /// Let the scene name files outside of its own folder
+    #[arg(long)]
+    pub allow_outside: bool,
+    /// End after this many frames
+    #[arg(long, value_name = "N")]
+    pub frames: Option<u64>,
+    /// Draw without a window, save the last frame here as a PNG, and end
+    #[arg(long, value_name = "FILE", requires = "frames")]
+    pub screenshot: Option<PathBuf>,
+    /// The size of the window, or of the screenshot [pixels]
+    #[arg(long, value_name = "WIDTHxHEIGHT", default_value = "1280x800", value_parser = size)]
+    pub size: [u32; 2],
+    /// An adapter, by a part of its name or by its number in `motes doctor`
+    #[arg(long, value_name = "NAME")]
+    pub adapter: Option<String>,
 }
 
 #[derive(Debug, ClapArgs)]
@@ -354,6 +384,13 @@ fn positive(text: &str) -> Result<f64, String> {
         Ok(x) if x > 0.0 && x < 1e6 => Ok(x),
         _ => Err("it must be a number above 0 and below 1e6".to_owned()),
     }
+}
+
+/// The size of a picture, as in 1280x800.
+fn size(text: &str) -> Result<[u32; 2], String> {
+    let side = |text: &str| text.trim().parse::<u32>().ok().filter(|n| (64..=4096).contains(n));
+    let sides = text.split_once(['x', '×']).and_then(|(width, height)| Some([side(width)?, side(height)?]));
+    sides.ok_or_else(|| "it must be a width and a height of 64 to 4096 pixels, as in 1280x800".to_owned())
 }
 
 /// The subject of a benchmark.

@@ -42,6 +42,7 @@ mod stop;
 mod summary;
 mod sweep;
 mod validate;
+mod view;
 mod words;
 
 use std::process::ExitCode;
@@ -86,6 +87,7 @@ async fn dispatch(command: Command) -> Result<(), Failure> {
     match command {
         Command::Run(args) => run::run(&args).await,
         Command::Resume(args) => run::resume(&args).await,
+        Command::View(args) => view::view(&args).await,
         Command::Check(args) => check::check(&args).await,
         Command::Explain(args) => explain::explain(&args).await,
         Command::Compare(args) => compare::compare(&args).await,

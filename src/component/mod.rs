@@ -57,6 +57,10 @@ pub trait Component: Copied + Send + Sync {
     fn name(&self) -> &str {
         ""
     }
+    /// Its settings as they are now, in the order of its keys.
+    fn settings(&self) -> Vec<Setting<'_>> {
+        Vec::new()
+    }
     /// The same with one of its settings, or a table of its law, changed.
     ///
     /// # Errors
@@ -94,6 +98,21 @@ pub trait Component: Copied + Send + Sync {
             _ => Ok(()),
         }
     }
+}
+
+/// A setting of a component: its name, the values that it accepts, and the present one.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Setting<'a> {
+    /// The name in scenes, and of [`Simulation::set`](crate::Simulation::set).
+    pub name: &'a str,
+    /// The values that it accepts.
+    pub kind: crate::settings::Kind,
+    /// Its value where a scene leaves it out; none where it must be given.
+    pub default: Option<&'a Value>,
+    /// One line: what it means, and its unit.
+    pub about: &'a str,
+    /// The present value.
+    pub value: &'a Value,
 }
 
 /// A new value of a setting or of a table, for [`Simulation::set`](crate::Simulation::set).

@@ -1,7 +1,7 @@
 //! A registered component, which keeps its settings, so that one of them can be changed.
 
 use super::misnamed::misnamed;
-use super::{Change, Component, Properties, Resolved, Stage, Tail};
+use super::{Change, Component, Properties, Resolved, Setting, Stage, Tail};
 use crate::error::Error;
 use crate::floor_plan::FloorPlan;
 use crate::kernel::{Bounds, Column, Plan, Problem};
@@ -33,6 +33,14 @@ pub fn registered(name: &'static str, keys: &'static [Key], settings: &Settings,
 impl Component for Registered {
     fn name(&self) -> &str {
         self.name
+    }
+    fn settings(&self) -> Vec<Setting<'_>> {
+        let one = |key: &'static Key| {
+            let value = self.settings.0.get(key.name)?;
+            let Key { name, kind, about, .. } = key;
+            Some(Setting { name, kind: *kind, default: key.default.as_ref(), about, value })
+        };
+        self.keys.iter().filter_map(one).collect()
     }
     fn changed(&self, name: &str, to: &Change) -> Result<Box<dyn Component>, Error> {
         let Some(key) = self.keys.iter().find(|key| key.name == name) else {

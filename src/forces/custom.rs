@@ -3,11 +3,11 @@
 use std::sync::Arc;
 
 use super::{Change, Component, Law, Over, Properties};
-use crate::component::Largest;
+use crate::component::{Largest, Setting};
 use crate::error::Error;
 use crate::grains;
 use crate::kernel::{ACCELERATION, Column, Name, Scalar, Source, Table};
-use crate::settings::{Value, unknown};
+use crate::settings::{Kind, Value, unknown};
 use crate::visit::PairTable;
 
 /// A user's law. It has no reference, so the CPU backend cannot run it and it is not verified.
@@ -89,6 +89,15 @@ impl Custom {
 impl Component for Custom {
     fn name(&self) -> &str {
         &self.name
+    }
+    fn settings(&self) -> Vec<Setting<'_>> {
+        let kind = |value: &Value| match value {
+            Value::Vector(_) => Kind::Vector,
+            Value::Flag(_) => Kind::Flag,
+            _ => Kind::Number,
+        };
+        let one = |(name, value)| Setting { name, kind: kind(value), default: None, about: "a parameter of the law", value };
+        self.params.iter().map(|(name, value)| one((name.as_str(), value))).collect()
     }
     fn changed(&self, name: &str, to: &Change) -> Result<Box<dyn Component>, Error> {
         Ok(Box::new(match to {

@@ -3,6 +3,8 @@
 
 mod adapter;
 mod buffers;
+#[cfg(feature = "view")]
+mod canvas;
 mod done;
 mod driver;
 mod fault;
@@ -15,6 +17,8 @@ mod repeat;
 mod saved;
 mod submit;
 mod timing;
+#[cfg(feature = "view")]
+mod window;
 
 use std::time::Duration;
 
@@ -22,6 +26,9 @@ pub use adapter::{Choice, Found, adapters, best, choose, instance, open, wanted_
 #[doc(hidden)]
 pub use adapter::{NO_DRIVER, flags};
 use buffers::Buffers;
+#[cfg(feature = "view")]
+#[doc(hidden)]
+pub use canvas::{Canvas, Controls, ROW, Sheet};
 #[doc(hidden)]
 pub use fault::Faults;
 use pipeline::Pipelines;
@@ -30,6 +37,9 @@ pub use program::Program;
 use read::Incoming;
 use saved::Saved;
 use submit::Queue;
+#[cfg(feature = "view")]
+#[doc(hidden)]
+pub use window::Window;
 
 use crate::error::Error;
 use crate::kernel::{Array, Arrival, Backend, Flag, Machine, Packed, Plan, Shader, World};

@@ -74,6 +74,25 @@ async fn attempt<B: Backend>(
     picture: &Picture,
     choose: impl FnOnce(Exposure) -> Exposure,
 ) -> Result<Image, Error> {
+    on_device(backend, picture, choose).await?;
+    let frame = &picture.frame;
+    let not_drawn = words(backend, NOT_DRAWN.name, 2).await?;
+    let pixels = words(backend, PIXELS.name, frame.area() as usize).await?;
+    Ok(Image {
+        width: frame.width,
+        height: frame.height,
+        rgba: pixels.iter().flat_map(|p| p.to_le_bytes()).collect(),
+        outside: not_drawn.first().copied().unwrap_or(0),
+        broken: not_drawn.get(1).copied().unwrap_or(0),
+    })
+}
+
+/// Draws into the field of pixels, which stays on the device. Only a histogram for the exposure is read back.
+pub(super) async fn on_device<B: Backend>(
+    backend: &mut B,
+    picture: &Picture,
+    choose: impl FnOnce(Exposure) -> Exposure,
+) -> Result<(), Error> {
     let frame = &picture.frame;
     let plan = picture.plan()?;
     // A style may leave colours out.
@@ -89,16 +108,7 @@ async fn attempt<B: Backend>(
     let histogram = words(backend, HISTOGRAM.name, super::frame::BINS).await?;
     let exposure = choose(Exposure::of(&histogram, frame, picture.exposure));
     let develop = backend.compile(&picture.development(exposure)?)?;
-    backend.run(&develop, 1)?;
-    let not_drawn = words(backend, NOT_DRAWN.name, 2).await?;
-    let pixels = words(backend, PIXELS.name, frame.area() as usize).await?;
-    Ok(Image {
-        width: frame.width,
-        height: frame.height,
-        rgba: pixels.iter().flat_map(|p| p.to_le_bytes()).collect(),
-        outside: not_drawn.first().copied().unwrap_or(0),
-        broken: not_drawn.get(1).copied().unwrap_or(0),
-    })
+    backend.run(&develop, 1)
 }
 
 async fn words<B: Backend>(backend: &mut B, name: &str, len: usize) -> Result<Vec<u32>, Error> {

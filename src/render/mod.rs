@@ -15,6 +15,8 @@ mod frame;
 mod heading;
 mod keys;
 mod light;
+#[cfg(feature = "view")]
+mod live;
 #[cfg(feature = "images")]
 mod notes;
 mod palette;
@@ -32,8 +34,12 @@ pub use draw::{Image, draw};
 pub use exposure::Exposure;
 pub use film::{Film, shoot};
 pub use fluid::Water;
+#[cfg(feature = "view")]
+pub use fields::PIXELS;
 pub use frame::Frame;
 pub use keys::KEYS;
+#[cfg(feature = "view")]
+pub use live::Live;
 pub use palette::{Color, group_color, pack};
 pub use passes::absent;
 pub use picture::Picture;

@@ -76,7 +76,7 @@ use crate::error::Error;
 use crate::formats::{self, Precision};
 use crate::kernel::{Backend, Bounds, Columns, POSITION, Side};
 use crate::measure::Times;
-use crate::render::{Picture, Scenery, Trail};
+use crate::render::{Picture, Trail};
 use crate::scene::Scene;
 use crate::simulation::{Setup, Simulation};
 use crate::state::State;
@@ -201,10 +201,7 @@ impl Run {
         }
         let packed = Packed::of(&scene, options.also(), options.from.as_deref())?;
         let begun = course::begun(&scene, &setup.state);
-        let properties = || setup.forces.iter().map(|force| force.properties());
-        let walls = setup.state.floor_plan.iter().flat_map(|plan| plan.standing());
-        let standing = properties().filter_map(|of| of.pictured).chain(walls).collect();
-        let scenery = Scenery::of(&setup.state).within(&setup.bounds).beside(standing, &setup.state);
+        let scenery = pictures::scenery(setup);
         images::check(&scene.output)?;
         Picture::with(&scene.picture, &setup.state, &[], Trail::new(0), &scenery)?;
         let (count, stream) = (setup.state.len(), Stream::default());

@@ -13,6 +13,9 @@ use crate::measure::Moment;
 use crate::render::{Color, Image, Picture, Scenery, Trail, framed, group_color, pack};
 use crate::scene::{Group, Scene};
 use crate::settings::Settings;
+#[cfg(feature = "view")]
+use crate::{render::Camera, settings::Value};
+use crate::simulation::Setup;
 use crate::state::State;
 
 /// The approximate number of points of a trail.
@@ -58,6 +61,13 @@ impl Pictures {
             last: None,
         }
     }
+    /// The pictures of a scene with this setup, of which no file is written.
+    #[cfg(feature = "view")]
+    #[must_use]
+    pub fn beside(scene: &Scene, setup: &Setup) -> Self {
+        let of = Self::new(scene, setup.state.len(), (scenery(setup), setup.bounds), Stream::default());
+        Self { trail: Trail::new(setup.state.len()), ..of }
+    }
     /// Whether each output is drawn.
     #[must_use]
     pub fn wanted(&self) -> bool {
@@ -77,11 +87,14 @@ impl Pictures {
         self.trail.wanted() && steps.is_multiple_of(self.stride)
     }
     /// The objects beside the particles at a time, in a box that may have changed since the start.
-    pub(super) fn scenery(&self, bounds: &Bounds, time: f64) -> Scenery {
+    pub fn scenery(&self, bounds: &Bounds, time: f64) -> Scenery {
         if *bounds == self.bounds { self.scenery.at(time) } else { self.scenery.clone().within(bounds).at(time) }
     }
     /// The picture of a state, to be drawn, with this trail.
-    pub(super) fn of(&self, snapshot: &State, trail: Trail) -> Result<Picture, Error> {
+    ///
+    /// # Errors
+    /// As for [`Picture::with`].
+    pub fn of(&self, snapshot: &State, trail: Trail) -> Result<Picture, Error> {
         let of = |id: usize| {
             let found = self.groups.iter().position(|g| g.ids.start as usize <= id && id < g.ids.end as usize);
             u32::try_from(found.unwrap_or(0)).unwrap_or(0)
@@ -99,6 +112,49 @@ impl Pictures {
             picture.color = Color::Given(groups.iter().map(color).collect());
         }
         Ok(picture)
+    }
+}
+
+/// The objects that pictures of a setup show beside particles.
+pub(super) fn scenery(setup: &Setup) -> Scenery {
+    let properties = || setup.forces.iter().map(|force| force.properties());
+    let walls = setup.state.floor_plan.iter().flat_map(|plan| plan.standing());
+    let standing = properties().filter_map(|of| of.pictured).chain(walls).collect();
+    Scenery::of(&setup.state).within(&setup.bounds).beside(standing, &setup.state)
+}
+
+/// What a viewer changes.
+#[cfg(feature = "view")]
+impl Pictures {
+    /// The settings of its pictures.
+    #[must_use]
+    pub fn looks(&self) -> &Settings {
+        &self.picture
+    }
+    /// Changes one of them.
+    pub fn set(&mut self, key: &'static str, value: Value) {
+        self.picture.0.insert(key, value);
+    }
+    /// Takes other settings.
+    pub fn restore(&mut self, settings: Settings) {
+        self.picture = settings;
+    }
+    /// Takes another size \[pixels\].
+    pub fn size(&mut self, width: u32, height: u32) {
+        self.set("width", width.into());
+        self.set("height", height.into());
+    }
+    /// Frames all particles from the direction of a camera.
+    pub fn aim(&mut self, camera: &Camera) {
+        let projection = if camera.distance > 0.0 { "perspective" } else { "orthographic" };
+        self.set("eye", camera.back.into());
+        self.set("up", camera.up.into());
+        self.set("projection", projection.into());
+        self.set("auto_frame", true.into());
+    }
+    /// The trails.
+    pub fn trail(&mut self) -> &mut Trail {
+        &mut self.trail
     }
 }
 

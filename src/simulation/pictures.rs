@@ -24,6 +24,16 @@ impl<B: Backend> Simulation<B> {
         self.settle().await?;
         render::shoot(&mut self.backend, film).await
     }
+    /// Draws the current state into a field of the device, and reads nothing back of it.
+    ///
+    /// # Errors
+    /// As for [`Simulation::draw`].
+    #[cfg(feature = "view")]
+    pub async fn show(&mut self, live: &mut render::Live) -> Result<(), Error> {
+        self.fits(&live.picture)?;
+        self.settle().await?;
+        live.draw(&mut self.backend).await
+    }
     fn fits(&self, picture: &Picture) -> Result<(), Error> {
         if picture.frame.count != self.capacity() {
             let (made, have) = (picture.frame.count, self.capacity());

@@ -6,6 +6,7 @@ use std::collections::BTreeSet;
 use super::fields::Fields;
 use super::setup::limited;
 use super::{Plans, Setup, Simulation, alarm, inactive, restart};
+use crate::component::Setting;
 use crate::error::Error;
 use crate::forces::{Change, Component, Law, numbered};
 use crate::kernel::{Backend, Plan, Problem};
@@ -38,6 +39,12 @@ impl<B: Backend> Simulation<B> {
         forces[place] = forces[place].changed(setting, &to.into())?;
         let setup = Setup { forces, ..self.setup.clone() };
         self.exchange(setup, (*self.problem).clone(), &format!("`{setting}` of `{force}`"))
+    }
+    /// The names of the forces, and their settings as they are now.
+    #[doc(hidden)]
+    #[must_use]
+    pub fn settings(&self) -> Vec<(String, Vec<Setting<'_>>)> {
+        names(&self.setup.forces).into_iter().zip(self.setup.forces.iter().map(|force| force.settings())).collect()
     }
     /// Replaces the motion of the same name, from the next step on: particles and obstacles with it move to their new poses. Keys are at
     /// times of the run, as at its start.

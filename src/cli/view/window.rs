@@ -1,0 +1,223 @@
+//! The window.
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::time::{Duration, Instant, SystemTime};
+
+use egui::{Context, ViewportId};
+use egui_winit::winit;
+use motes::gpu::{Choice, Controls, Found, Window as Surface};
+use motes::view::{PICTURE, Taken, View};
+use motes::{Error, Gpu, Simulation};
+use pollster::block_on;
+use winit::application::ApplicationHandler;
+use winit::dpi::PhysicalSize;
+use winit::event::{StartCause, WindowEvent};
+use winit::event_loop::{ActiveEventLoop, ControlFlow, EventLoop};
+use winit::window::{Window, WindowId};
+
+use super::super::args::ViewArgs;
+use super::super::failure::Failure;
+
+/// The interval at which files of the scene are looked at.
+const LOOK: Duration = Duration::from_millis(250);
+
+/// Opens the window, and returns when it is closed.
+pub fn run(args: &ViewArgs) -> Result<(), Failure> {
+    let refused = |error: &dyn std::fmt::Display| Error::NoAdapter(format!("no window can be opened: {error}"));
+    let mut app = App { args: args.clone(), shell: None, failed: None };
+    let events = EventLoop::new().map_err(|error| refused(&error))?;
+    events.run_app(&mut app).map_err(|error| refused(&error))?;
+    app.failed.map_or(Ok(()), Err)
+}
+
+struct App {
+    args: ViewArgs,
+    shell: Option<Shell>,
+    failed: Option<Failure>,
+}
+
+impl App {
+    fn end(&mut self, events: &ActiveEventLoop, result: Result<(), Failure>) {
+        self.failed = result.err();
+        self.shell = None;
+        events.exit();
+    }
+}
+
+impl ApplicationHandler for App {
+    fn resumed(&mut self, events: &ActiveEventLoop) {
+        if self.shell.is_some() {
+            return;
+        }
+        match Shell::open(events, &self.args) {
+            Ok(shell) => self.shell = Some(shell),
+            Err(failure) => self.end(events, Err(failure)),
+        }
+    }
+    fn new_events(&mut self, _: &ActiveEventLoop, cause: StartCause) {
+        if let (StartCause::ResumeTimeReached { .. }, Some(shell)) = (cause, &self.shell) {
+            shell.window.request_redraw();
+        }
+    }
+    fn window_event(&mut self, events: &ActiveEventLoop, _: WindowId, event: WindowEvent) {
+        let Some(shell) = &mut self.shell else { return };
+        if shell.input.on_window_event(&shell.window, &event).repaint {
+            shell.window.request_redraw();
+        }
+        let done = match event {
+            WindowEvent::CloseRequested => return self.end(events, Ok(())),
+            WindowEvent::Resized(size) => shell.surface.resize(size.into()).map_err(Failure::from),
+            WindowEvent::DroppedFile(path) => {
+                shell.open_scene(&self.args, &path.to_string_lossy());
+                Ok(())
+            }
+            WindowEvent::RedrawRequested => shell.frame(&self.args),
+            _ => Ok(()),
+        };
+        let enough = self.args.frames.is_some_and(|frames| shell.frames >= frames);
+        if done.is_err() || enough {
+            return self.end(events, done);
+        }
+        events.set_control_flow(ControlFlow::WaitUntil(Instant::now() + LOOK));
+    }
+}
+
+/// The window with what it shows.
+struct Shell {
+    window: Arc<Window>,
+    surface: Surface,
+    found: Found,
+    context: Context,
+    input: egui_winit::State,
+    view: View<Gpu>,
+    files: Files,
+    frames: u64,
+}
+
+impl Shell {
+    fn open(events: &ActiveEventLoop, args: &ViewArgs) -> Result<Self, Failure> {
+        let refused = |error: &dyn std::fmt::Display| Error::NoAdapter(format!("no window can be opened: {error}"));
+        let loaded = block_on(super::load(args, None))?;
+        let [width, height] = args.size;
+        let attributes = Window::default_attributes()
+            .with_title(format!("motes: {}", loaded.scene.name))
+            .with_inner_size(PhysicalSize::new(width, height));
+        let window = Arc::new(events.create_window(attributes).map_err(|error| refused(&error))?);
+        let choice = args.adapter.clone().map_or(Choice::Best, Choice::Named);
+        let (surface, found) = block_on(Surface::open(window.clone(), window.inner_size().into(), &choice))?;
+        let context = Context::default();
+        let input = egui_winit::State::new(context.clone(), ViewportId::ROOT, &window, None, window.theme(), None);
+        let files = Files::of(&loaded.scene.files, &args.scene);
+        let view = block_on(View::new(&loaded.scene, loaded.setup, make(&found)))?;
+        window.request_redraw();
+        Ok(Self { window, surface, found, context, input, view, files, frames: 0 })
+    }
+    /// Opens another scene. Where it has faults, the present one goes on, and they are said.
+    fn open_scene(&mut self, args: &ViewArgs, name: &str) {
+        let opened = block_on(async {
+            let loaded = super::load(args, Some(name)).await?;
+            let (files, title) = (loaded.scene.files.clone(), loaded.scene.name.clone());
+            let view = View::new(&loaded.scene, loaded.setup, make(&self.found)).await?;
+            Ok::<_, Failure>((view, files, title))
+        });
+        match opened {
+            Ok((view, files, title)) => {
+                self.view = view;
+                self.files = Files::of(&files, name);
+                self.window.set_title(&format!("motes: {title}"));
+            }
+            Err(failure) => {
+                // It is tried again when its files change.
+                self.files.seen();
+                self.view.say(failure.words());
+            }
+        }
+        self.window.request_redraw();
+    }
+    /// One frame: input, controls, steps, picture.
+    fn frame(&mut self, args: &ViewArgs) -> Result<(), Failure> {
+        self.found.faults.check()?;
+        if self.files.changed() {
+            let name = self.files.scene.clone();
+            self.open_scene(args, &name);
+        }
+        let input = self.input.take_egui_input(&self.window);
+        let output = self.context.run_ui(input, |ui| self.view.controls(ui));
+        self.input.handle_platform_output(&self.window, output.platform_output);
+        let scale = output.pixels_per_point;
+        let primitives = self.context.tessellate(output.shapes, scale);
+        block_on(self.view.advance())?;
+        if let Some(name) = self.view.wanted() {
+            self.open_scene(args, &name);
+            block_on(self.view.advance())?;
+        }
+        if let Some(taken) = self.view.take() {
+            self.view.say(save(&taken).map_or_else(|error| error.to_string(), |file| format!("saved {}", file.display())));
+        }
+        let size = self.view.size();
+        if let Some(pixels) = self.view.simulation().buffer(PICTURE) {
+            let id = self.surface.canvas().take(pixels, size)?;
+            self.view.show(id);
+        }
+        self.surface.paint(&Controls { primitives, textures: output.textures_delta, scale })?;
+        self.frames += 1;
+        let soon = output.viewport_output.values().any(|viewport| viewport.repaint_delay < LOOK);
+        if !self.view.is_paused() || soon || self.frames < 3 {
+            self.window.request_redraw();
+        }
+        Ok(())
+    }
+}
+
+/// Makes simulations on a device.
+fn make(found: &Found) -> motes::view::Make<Gpu> {
+    let (device, queue) = (found.device.clone(), found.queue.clone());
+    Box::new(move |setup| Simulation::new(&device, &queue, setup))
+}
+
+/// Saves a picture in the present folder, beside those that are there.
+fn save(taken: &Taken) -> Result<PathBuf, Error> {
+    let stem = taken.name.trim_end_matches(".png");
+    let names = std::iter::once(taken.name.clone()).chain((2..).map(|number| format!("{stem}_{number}.png")));
+    let file = names.map(PathBuf::from).find(|name| !name.exists()).unwrap_or_default();
+    taken.image.save(&file)?;
+    Ok(file)
+}
+
+/// The files of a scene, and when they were written last.
+struct Files {
+    /// The name by which the scene is opened again.
+    scene: String,
+    written: Vec<(PathBuf, Option<SystemTime>)>,
+    looked: Instant,
+}
+
+impl Files {
+    fn of(files: &[PathBuf], scene: &str) -> Self {
+        let written = files.iter().map(|file| (file.clone(), modified(file))).collect();
+        Self { scene: scene.to_owned(), written, looked: Instant::now() }
+    }
+    /// Whether one of them was written since it was last seen, and is at rest.
+    fn changed(&mut self) -> bool {
+        if self.looked.elapsed() < LOOK {
+            return false;
+        }
+        self.looked = Instant::now();
+        let resting = |time: SystemTime| time.elapsed().is_ok_and(|since| since > LOOK / 2);
+        self.written.iter().any(|(file, time)| {
+            let now = modified(file);
+            now != *time && now.is_some_and(resting)
+        })
+    }
+    /// Takes them as they are.
+    fn seen(&mut self) {
+        for (file, time) in &mut self.written {
+            *time = modified(file);
+        }
+    }
+}
+
+fn modified(file: &Path) -> Option<SystemTime> {
+    std::fs::metadata(file).and_then(|data| data.modified()).ok()
+}

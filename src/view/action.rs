@@ -1,0 +1,44 @@
+//! What a user asks for.
+
+use glam::DVec3;
+
+use crate::settings::Value;
+
+/// A request. Lengths on the picture are in halves of its height, from its middle, to the right and up.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Action {
+    /// Stand still, or go on.
+    Pause,
+    /// One step.
+    Step,
+    /// Back to the start, with the present settings.
+    Reset,
+    /// Back to the start, with the settings of the scene.
+    Restore,
+    /// So many times as fast.
+    Faster(f64),
+    /// Another value of a setting of a force.
+    Set { force: String, setting: String, value: Value },
+    /// Another value of a key of the picture.
+    Picture { key: &'static str, value: Value },
+    /// Turn the camera about its centre \[radians\].
+    Orbit { across: f64, up: f64 },
+    /// Shift the camera.
+    Pan { across: f64, up: f64 },
+    /// Look closer, or from farther away, at a place on the picture.
+    Zoom { factor: f64, across: f64, up: f64 },
+    /// Look from a direction.
+    From { back: DVec3, up: DVec3 },
+    /// Perspective or parallel rays.
+    Projection,
+    /// All particles in the picture.
+    Frame,
+    /// Show the panel, or hide it.
+    Panel,
+    /// Show the list of keys, or hide it.
+    Help,
+    /// Save a picture.
+    Take,
+    /// Open another scene.
+    Open(String),
+}

@@ -1,0 +1,202 @@
+//! The panel, and the place of the picture.
+
+use egui::{CentralPanel, CollapsingHeader, ComboBox, Frame, Image, Panel, PointerButton, Rect, ScrollArea, Sense, Slider, Ui, Vec2, load::SizedTexture, pos2};
+
+use super::action::Action;
+use super::{View, keyboard, sliders};
+use crate::kernel::Backend;
+use crate::render;
+use crate::scene::SCENES;
+use crate::settings::{Kind, Value, plain};
+
+/// The width of the panel \[points\].
+const PANEL: f32 = 320.0;
+/// Columns of a picture are a multiple of so many.
+const COLUMNS: u32 = 64;
+/// Pixels of a picture from side to side, at most.
+const SIDE: u32 = 4096;
+/// The camera turns so far when one drags across the height of the picture \[radians\].
+const TURN: f64 = 3.0;
+/// The wheel brings the camera so much closer for each point.
+const WHEEL: f64 = 0.003;
+
+/// Shows both.
+pub fn show<B: Backend>(view: &mut View<B>, ui: &mut Ui) {
+    if view.panel {
+        Panel::right("panel").default_size(PANEL).show(ui, |ui| {
+            ScrollArea::vertical().show(ui, |ui| panel(view, ui));
+        });
+    }
+    CentralPanel::default().frame(Frame::NONE).show(ui, |ui| picture(view, ui));
+    if view.help {
+        let mut open = true;
+        egui::Window::new("Keys").open(&mut open).resizable(false).show(ui.ctx(), keys);
+        view.help = open;
+    }
+}
+
+fn keys(ui: &mut Ui) {
+    egui::Grid::new("keys").striped(true).show(ui, |ui| {
+        for (key, about) in keyboard::KEYS {
+            ui.monospace(*key);
+            ui.label(*about);
+            ui.end_row();
+        }
+    });
+}
+
+fn panel<B: Backend>(view: &mut View<B>, ui: &mut Ui) {
+    let open = view.stage.name.clone();
+    ui.horizontal(|ui| {
+        ComboBox::from_id_salt("scene").selected_text(egui::RichText::new(&open).heading()).show_ui(ui, |ui| {
+            for scene in SCENES {
+                if ui.selectable_label(scene.name == open, scene.name).on_hover_text(scene.about()).clicked() {
+                    view.actions.push(Action::Open(scene.name.to_owned()));
+                }
+            }
+        });
+        if ui.button("?").on_hover_text("the keys").clicked() {
+            view.actions.push(Action::Help);
+        }
+    });
+    ui.weak(&view.stage.about);
+    ui.separator();
+    run(view, ui);
+    if !view.message.is_empty() {
+        let color = if view.faulty { ui.visuals().error_fg_color } else { ui.visuals().warn_fg_color };
+        ui.colored_label(color, &view.message);
+    }
+    ui.separator();
+    CollapsingHeader::new("Picture").default_open(true).show(ui, |ui| looks(view, ui));
+    forces(view, ui);
+    CollapsingHeader::new("Energy").default_open(false).show(ui, |ui| view.energies.show(ui));
+}
+
+fn run<B: Backend>(view: &mut View<B>, ui: &mut Ui) {
+    ui.horizontal(|ui| {
+        let name = if view.paused { "▶ Run" } else { "⏸ Pause" };
+        if ui.button(name).on_hover_text("Space").clicked() {
+            view.actions.push(Action::Pause);
+        }
+        if ui.button("Step").on_hover_text("one step: .").clicked() {
+            view.actions.push(Action::Step);
+        }
+        if ui.button("⟲ Reset").on_hover_text("back to the start, with these settings: R").clicked() {
+            view.actions.push(Action::Reset);
+        }
+        if ui.button("Scene").on_hover_text("back to the start, with the settings of the scene").clicked() {
+            view.actions.push(Action::Restore);
+        }
+    });
+    let mut wanted = view.pace.wanted;
+    let slider = Slider::new(&mut wanted, 1.0..=10_000.0).logarithmic(true).max_decimals(0).text("steps / s");
+    if ui.add(slider).changed() {
+        view.actions.push(Action::Faster(wanted / view.pace.wanted));
+    }
+    let [asked, now] = view.pace.speeds();
+    let short = !view.paused && now < 0.8 * asked && view.pace.step.is_some();
+    let simulation = &view.stage.simulation;
+    egui::Grid::new("numbers").num_columns(2).show(ui, |ui| {
+        let mut row = |name: &str, value: String| {
+            ui.label(name);
+            ui.monospace(value);
+            ui.end_row();
+        };
+        row("time", plain(digits(view.stage.time())));
+        row("step", simulation.steps().to_string());
+        row("particles", simulation.count().to_string());
+        let rate = format!("{} of {} a second", plain(digits(now)), plain(digits(asked)));
+        row("speed", if short { format!("{rate}: as fast as it goes") } else { rate });
+        let millis = |seconds: Option<f64>| seconds.map_or("…".to_owned(), |s| format!("{:.1} ms", 1e3 * s));
+        row("a step takes", millis(view.pace.step));
+        row("a picture takes", millis(view.pace.picture));
+    });
+}
+
+/// With four digits.
+fn digits(x: f64) -> f64 {
+    format!("{x:.3e}").parse().unwrap_or(x)
+}
+
+fn looks<B: Backend>(view: &mut View<B>, ui: &mut Ui) {
+    for name in ["color", "style", "background", "draw"] {
+        let Some(key) = render::KEYS.iter().find(|key| key.name == name) else { continue };
+        let Kind::Choice(known) = key.kind else { continue };
+        let now = view.stage.text(name);
+        ui.horizontal(|ui| {
+            ui.label(name).on_hover_text(key.about);
+            ComboBox::from_id_salt(name).selected_text(&now).show_ui(ui, |ui| {
+                for one in known {
+                    if ui.selectable_label(*one == now, *one).clicked() && *one != now {
+                        view.actions.push(Action::Picture { key: key.name, value: Value::Text((*one).into()) });
+                    }
+                }
+            });
+        });
+    }
+    let mut exposure = view.stage.number("exposure");
+    let slider = Slider::new(&mut exposure, 0.05..=20.0).logarithmic(true).max_decimals(2).text("exposure");
+    if ui.add(slider).changed() {
+        view.actions.push(Action::Picture { key: "exposure", value: Value::Number(exposure) });
+    }
+    ui.horizontal(|ui| {
+        if ui.button("Frame all").on_hover_text("F").clicked() {
+            view.actions.push(Action::Frame);
+        }
+        if ui.button("Save picture").on_hover_text("P").clicked() {
+            view.actions.push(Action::Take);
+        }
+    });
+}
+
+fn forces<B: Backend>(view: &mut View<B>, ui: &mut Ui) {
+    let start = view.stage.start.forces.iter().map(|force| force.settings());
+    for ((name, settings), scene) in view.stage.simulation.settings().into_iter().zip(start) {
+        if settings.is_empty() {
+            continue;
+        }
+        let title = egui::RichText::new(name.replace('_', " "));
+        CollapsingHeader::new(title).id_salt(&name).default_open(settings.len() <= 4).show(ui, |ui| {
+            sliders::show(ui, &name, &settings, &scene, &mut view.actions);
+        });
+    }
+}
+
+#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a number of pixels, which is bounded")]
+fn picture<B: Backend>(view: &mut View<B>, ui: &mut Ui) {
+    let (place, response) = ui.allocate_exact_size(ui.available_size(), Sense::click_and_drag());
+    let pixels = place.size() * ui.ctx().pixels_per_point();
+    let whole = |x: f32| (x.round().max(64.0) as u32).min(SIDE);
+    view.size = [whole(pixels.x).next_multiple_of(COLUMNS), whole(pixels.y)];
+    if let Some(id) = view.texture {
+        // Columns beyond the place are cut off, as many at both sides.
+        let [width, height] = view.size();
+        let part = (place.aspect_ratio() * height as f32 / width as f32).min(1.0);
+        let seen = Rect::from_min_max(pos2(0.5 - 0.5 * part, 0.0), pos2(0.5 + 0.5 * part, 1.0));
+        Image::from_texture(SizedTexture::new(id, Vec2::new(width as f32, height as f32))).uv(seen).paint_at(ui, place);
+    }
+    let half = f64::from(0.5 * place.height()).max(1.0);
+    let drag = response.drag_delta();
+    let (across, up) = (f64::from(drag.x) / half, -f64::from(drag.y) / half);
+    if drag != Vec2::ZERO {
+        let shift = ui.input(|input| input.modifiers.shift);
+        let turns = response.dragged_by(PointerButton::Primary) && !shift && !view.is_flat();
+        view.actions.push(if turns {
+            Action::Orbit { across: 0.5 * TURN * across, up: -0.5 * TURN * up }
+        } else {
+            Action::Pan { across, up }
+        });
+    }
+    if response.double_clicked() {
+        view.actions.push(Action::Frame);
+    }
+    if let Some(pointer) = response.hover_pos() {
+        let (wheel, pinch) = ui.input(|input| (input.smooth_scroll_delta.y, input.zoom_delta()));
+        let factor = (-WHEEL * f64::from(wheel)).exp() / f64::from(pinch);
+        if (factor - 1.0).abs() > 1e-6 {
+            let from = pointer - place.center();
+            let (across, up) = (f64::from(from.x) / half, -f64::from(from.y) / half);
+            view.actions.push(Action::Zoom { factor, across, up });
+        }
+    }
+}

@@ -1,0 +1,228 @@
+//! A simulation that one watches and changes while it runs. It knows no window: a shell gives it input, and paints what it makes.
+
+mod action;
+mod controls;
+mod energies;
+mod keyboard;
+mod orbit;
+mod pace;
+mod sliders;
+mod stage;
+
+use egui::{TextureId, Ui};
+use web_time::Instant;
+
+use crate::error::Error;
+use crate::kernel::{Backend, Field};
+use crate::render::{Image, PIXELS};
+use crate::scene::Scene;
+use crate::simulation::{Setup, Simulation};
+use action::Action;
+use energies::Energies;
+use pace::Pace;
+use stage::Stage;
+
+/// Makes a simulation of a setup on the shell's device.
+pub type Make<B> = Box<dyn Fn(&Setup) -> Result<Simulation<B>, Error>>;
+
+/// The field with the pixels of the picture.
+pub const PICTURE: Field<u32> = PIXELS;
+
+/// A picture that was taken, and the name of its file.
+pub struct Taken {
+    /// The picture.
+    pub image: Image,
+    /// A name made of the scene and the step.
+    pub name: String,
+}
+
+/// A running simulation, its picture and its controls.
+pub struct View<B: Backend> {
+    stage: Stage<B>,
+    pace: Pace,
+    energies: Energies,
+    paused: bool,
+    /// Whether the panel is shown, and the list of keys.
+    panel: bool,
+    help: bool,
+    /// What was asked for since the last frame.
+    actions: Vec<Action>,
+    /// The pixels of the picture's place, and its texture.
+    size: [u32; 2],
+    texture: Option<TextureId>,
+    /// What is said below the picture.
+    message: String,
+    /// Whether a fault has stopped the run.
+    faulty: bool,
+    taken: Option<Taken>,
+    /// The scene that the shell is asked to open.
+    wanted: Option<String>,
+    shown: bool,
+}
+
+impl<B: Backend> View<B> {
+    /// A view of a scene with its setup.
+    ///
+    /// # Errors
+    /// When the setup is invalid, a shader does not compile, or the fields do not fit the device.
+    pub async fn new(scene: &Scene, setup: Setup, make: Make<B>) -> Result<Self, Error> {
+        let stage = Stage::new(scene, setup, make).await?;
+        Ok(Self {
+            pace: Pace::new(stage.dt()),
+            stage,
+            energies: Energies::default(),
+            paused: false,
+            panel: true,
+            help: false,
+            actions: Vec::new(),
+            size: [640, 384],
+            texture: None,
+            message: String::new(),
+            faulty: false,
+            taken: None,
+            wanted: None,
+            shown: false,
+        })
+    }
+    /// The simulation, whose field [`PICTURE`] holds the last picture.
+    #[must_use]
+    pub fn simulation(&self) -> &Simulation<B> {
+        &self.stage.simulation
+    }
+    /// The pixels of the last picture, from left to right and from top to bottom.
+    #[must_use]
+    pub fn size(&self) -> [u32; 2] {
+        let frame = &self.stage.picture().frame;
+        [frame.width, frame.height]
+    }
+    /// Shows the last picture under this name from now on.
+    pub fn show(&mut self, texture: TextureId) {
+        self.texture = Some(texture);
+    }
+    /// Makes so many steps in every frame, however long they take.
+    pub fn each_frame(&mut self, steps: u32) {
+        self.pace.fixed = Some(steps);
+    }
+    /// Pauses the run, or goes on.
+    pub fn pause(&mut self, paused: bool) {
+        self.paused = paused || self.faulty;
+    }
+    /// Whether the run stands still, so that nothing need be drawn until there is input.
+    #[must_use]
+    pub fn is_paused(&self) -> bool {
+        self.paused
+    }
+    /// What is said to the user, if anything.
+    #[must_use]
+    pub fn message(&self) -> &str {
+        &self.message
+    }
+    /// A picture that was asked for, once.
+    pub fn take(&mut self) -> Option<Taken> {
+        self.taken.take()
+    }
+    /// The scene that is to be opened, once.
+    pub fn wanted(&mut self) -> Option<String> {
+        self.wanted.take()
+    }
+    /// Says something.
+    pub fn say(&mut self, text: impl Into<String>) {
+        self.message = text.into();
+    }
+    /// The controls and the picture, and what the user asks for.
+    pub fn controls(&mut self, ui: &mut Ui) {
+        keyboard::read(ui.ctx(), &mut self.actions);
+        controls::show(self, ui);
+    }
+    /// Does what was asked for, advances, and draws. A fault of the run stops it and is said.
+    ///
+    /// # Errors
+    /// When the device is lost, out of memory or does not answer in time.
+    pub async fn advance(&mut self) -> Result<(), Error> {
+        for action in std::mem::take(&mut self.actions) {
+            if let Err(error) = self.act(action).await {
+                self.refuse(error)?;
+            }
+        }
+        if !self.paused {
+            let steps = self.pace.steps();
+            if let Err(error) = self.step(steps).await {
+                (self.paused, self.faulty) = (true, true);
+                self.refuse(error)?;
+            }
+        }
+        let begun = Instant::now();
+        self.stage.draw(self.size).await?;
+        self.pace.drawn(begun.elapsed());
+        self.shown = true;
+        Ok(())
+    }
+    async fn step(&mut self, steps: u32) -> Result<(), Error> {
+        let begun = Instant::now();
+        self.stage.advance(steps).await?;
+        self.pace.stepped(steps, begun.elapsed());
+        if self.energies.is_due() {
+            let snapshot = self.stage.simulation.snapshot().await?;
+            self.energies.take(&snapshot)?;
+        }
+        Ok(())
+    }
+    /// Says why something was not done. An error of the device ends the view.
+    fn refuse(&mut self, error: Error) -> Result<(), Error> {
+        if matches!(error, Error::Device(_) | Error::Timeout { .. } | Error::OutOfMemory(_)) {
+            return Err(error);
+        }
+        self.message = error.to_string();
+        Ok(())
+    }
+    async fn act(&mut self, action: Action) -> Result<(), Error> {
+        match action {
+            Action::Pause => self.pause(!self.paused),
+            Action::Step => {
+                self.paused = true;
+                self.step(1).await?;
+            }
+            Action::Reset => {
+                self.stage.reset().await?;
+                self.restarted();
+            }
+            Action::Restore => {
+                self.stage.restore().await?;
+                self.restarted();
+            }
+            Action::Faster(factor) => self.pace.faster(factor),
+            Action::Set { force, setting, value } => {
+                if let Some(text) = self.stage.set(&force, &setting, value).await? {
+                    self.message = text;
+                }
+            }
+            Action::Picture { key, value } => self.stage.look(key, value).await?,
+            Action::Orbit { across, up } => self.stage.camera(|camera| orbit::turned(camera, across, up)),
+            Action::Pan { across, up } => self.stage.camera(|camera| orbit::shifted(camera, across, up)),
+            Action::Zoom { factor, across, up } => {
+                self.stage.camera(|camera| orbit::zoomed(camera, factor, across, up));
+            }
+            Action::From { back, up } => self.stage.camera(|camera| orbit::from(camera, back, up)),
+            Action::Projection => self.stage.camera(orbit::other_projection),
+            Action::Frame => self.stage.frame().await?,
+            Action::Panel => self.panel = !self.panel,
+            Action::Help => self.help = !self.help,
+            Action::Take => {
+                let (image, name) = self.stage.take().await?;
+                self.taken = Some(Taken { image, name });
+            }
+            Action::Open(name) => self.wanted = Some(name),
+        }
+        Ok(())
+    }
+    fn restarted(&mut self) {
+        self.energies = Energies::default();
+        self.message.clear();
+        self.faulty = false;
+    }
+    /// Whether it lies in a plane and is seen from above: a camera that turns would show nothing new.
+    fn is_flat(&self) -> bool {
+        let bounds = self.stage.simulation.setup().bounds;
+        bounds.dimensions == 2 && self.stage.picture().frame.camera.back.z > 0.999
+    }
+}

@@ -1,0 +1,128 @@
+//! A control for each setting of each force, made of its key.
+
+use egui::{ComboBox, DragValue, Slider, SliderClamping, Ui};
+use glam::DVec3;
+
+use super::action::Action;
+use crate::component::Setting;
+use crate::settings::{Kind, Value, plain};
+
+/// So many times the value of the scene a slider reaches, up and down.
+const REACH: f64 = 100.0;
+
+/// The controls of one force. `scene` has the values with which the run began, in the same order.
+pub fn show(ui: &mut Ui, force: &str, settings: &[Setting<'_>], scene: &[Setting<'_>], actions: &mut Vec<Action>) {
+    for (now, start) in settings.iter().zip(scene) {
+        let changed = now.value != start.value;
+        let mut set = |value: Value| {
+            if value != *now.value {
+                actions.push(Action::Set { force: force.to_owned(), setting: now.name.to_owned(), value });
+            }
+        };
+        ui.horizontal(|ui| {
+            let name = egui::RichText::new(now.name);
+            let label = ui.label(if changed { name.strong() } else { name }).on_hover_text(about(now, start));
+            if changed && ui.small_button("↺").on_hover_text("the value of the scene").clicked() {
+                set(start.value.clone());
+            }
+            if let Some(value) = control(ui, now, start.value, &label) {
+                set(value);
+            }
+        });
+    }
+}
+
+fn about(now: &Setting<'_>, start: &Setting<'_>) -> String {
+    let default = now.default.map_or(String::new(), |value| format!("\nby default {}", words(value)));
+    format!("{}\nit must be {}\nin the scene {}{default}", now.about, now.kind.wanted(), words(start.value))
+}
+
+/// A value in words.
+fn words(value: &Value) -> String {
+    match value {
+        Value::Number(x) => plain(*x),
+        Value::Vector(v) => v.to_array().map(plain).join(", "),
+        Value::Text(text) if text.is_empty() => "nothing".to_owned(),
+        Value::Text(text) => text.to_string(),
+        Value::Flag(on) => if *on { "yes" } else { "no" }.to_owned(),
+        Value::Pairs(rows) => format!("{} pairs of species", rows.len()),
+    }
+}
+
+/// The ends of a slider, and whether it is logarithmic.
+pub fn range(kind: Kind, scene: f64) -> (f64, f64, bool) {
+    let size = if scene == 0.0 { 1.0 } else { scene.abs() };
+    match kind {
+        Kind::Fraction => (0.001, 1.0, false),
+        Kind::Positive => (size / REACH, size * REACH, true),
+        Kind::NotNegative => (0.0, size * if scene == 0.0 { 1.0 } else { REACH }, scene != 0.0),
+        Kind::Count => (1.0, (size * 4.0).max(10.0).min(kind.largest()), false),
+        Kind::Whole | Kind::Species => (0.0, (size * 4.0).max(10.0).min(kind.largest()), false),
+        _ => (-4.0 * size, 4.0 * size, false),
+    }
+}
+
+/// A control for a value; the new value, where it was changed.
+fn control(ui: &mut Ui, now: &Setting<'_>, scene: &Value, label: &egui::Response) -> Option<Value> {
+    match (now.kind, now.value, scene) {
+        (kind, Value::Number(x), Value::Number(start)) => {
+            let (low, high, logarithmic) = range(kind, *start);
+            let mut value = *x;
+            let mut slider = Slider::new(&mut value, low..=high).clamping(SliderClamping::Never);
+            slider = if kind.is_whole() { slider.step_by(1.0) } else { slider.max_decimals(6) };
+            if logarithmic {
+                slider = slider.logarithmic(true).smallest_positive(high / REACH.powi(3));
+            }
+            let response = ui.add(slider).labelled_by(label.id);
+            response.changed().then_some(Value::Number(value))
+        }
+        (Kind::Choice(known), Value::Text(word), _) => {
+            let mut chosen = word.to_string();
+            let list = ComboBox::from_id_salt((label.id, "choice")).selected_text(&chosen);
+            list.show_ui(ui, |ui| {
+                for one in known {
+                    ui.selectable_value(&mut chosen, (*one).to_owned(), *one);
+                }
+            });
+            (chosen != *word).then(|| Value::Text(chosen.into()))
+        }
+        (_, Value::Flag(on), _) => {
+            let mut value = *on;
+            ui.checkbox(&mut value, "").labelled_by(label.id).changed().then_some(Value::Flag(value))
+        }
+        (_, Value::Vector(v), _) => {
+            let mut parts = v.to_array();
+            let speed = 0.01 * v.abs().max_element().max(0.1);
+            let mut changed = false;
+            for part in &mut parts {
+                changed |= ui.add(DragValue::new(part).speed(speed).max_decimals(6)).changed();
+            }
+            changed.then_some(Value::Vector(DVec3::from_array(parts)))
+        }
+        (_, value, _) => {
+            ui.weak(words(value));
+            None
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn sliders_hold_the_value_of_the_scene_and_what_its_kind_takes() {
+        let kinds = [Kind::Number, Kind::Positive, Kind::NotNegative, Kind::Count, Kind::Whole];
+        for kind in kinds {
+            for scene in [1e-20, 0.3, 1.0, 7.0, 1e12, 0.0, -2.5] {
+                if kind.outside(scene).is_some() {
+                    continue;
+                }
+                let (low, high, _) = range(kind, scene);
+                assert!((low..=high).contains(&scene) && low < high, "{kind:?} {scene}: {low} to {high}");
+                assert_eq!((kind.outside(low), kind.outside(high)), (None, None), "{kind:?} {scene}: {low} to {high}");
+            }
+        }
+        assert_eq!(range(Kind::Fraction, 0.2).1, 1.0);
+    }
+}

@@ -1,0 +1,176 @@
+//! The simulation that is watched, and its picture.
+
+use glam::DVec3;
+
+use super::Make;
+use crate::error::Error;
+use crate::kernel::{Backend, POSITION};
+use crate::render::{Camera, Image, Live, Picture, Trail};
+use crate::run::Pictures;
+use crate::scene::Scene;
+use crate::settings::Value;
+use crate::simulation::{Setup, Simulation};
+use crate::state::State;
+
+/// A simulation with its picture.
+pub struct Stage<B: Backend> {
+    /// The name of the scene, and what it says of itself.
+    pub name: String,
+    pub about: String,
+    pub simulation: Simulation<B>,
+    /// What it began with.
+    pub start: Setup,
+    make: Make<B>,
+    pictures: Pictures,
+    live: Live,
+    /// The state by which the picture was framed.
+    framed: State,
+    /// Whether the camera was moved by hand.
+    moved: bool,
+    time: f64,
+}
+
+impl<B: Backend> Stage<B> {
+    /// A scene with its setup.
+    pub async fn new(scene: &Scene, start: Setup, make: Make<B>) -> Result<Self, Error> {
+        let mut pictures = Pictures::beside(scene, &start);
+        let mut simulation = make(&start)?;
+        let framed = simulation.snapshot().await?;
+        let trail = pictures.trail().clone();
+        let live = Live::new(pictures.of(&framed, trail)?);
+        let time = framed.time;
+        let (name, about) = (scene.name.clone(), scene.about.clone());
+        Ok(Self { name, about, simulation, start, make, pictures, live, framed, moved: false, time })
+    }
+    pub fn dt(&self) -> f64 {
+        self.start.dt
+    }
+    pub fn time(&self) -> f64 {
+        self.time
+    }
+    pub fn picture(&self) -> &Picture {
+        &self.live.picture
+    }
+    /// A key of the picture.
+    pub fn text(&self, key: &str) -> String {
+        self.pictures.looks().text(key).to_owned()
+    }
+    pub fn number(&self, key: &str) -> f64 {
+        self.pictures.looks().number(key)
+    }
+    /// Advances, and looks for faults.
+    pub async fn advance(&mut self, steps: u32) -> Result<(), Error> {
+        if steps == 0 {
+            return Ok(());
+        }
+        self.simulation.step(steps)?;
+        self.simulation.check().await?;
+        let clock = self.simulation.clock().await?;
+        self.time = clock.map_or(self.simulation.steps() as f64 * self.start.dt, |clock| clock.time);
+        if self.pictures.trail().wanted() {
+            let positions = self.simulation.read(POSITION).await?;
+            let positions: Vec<DVec3> = positions.iter().map(|x| x.as_dvec4().truncate()).collect();
+            self.pictures.trail().push(&positions);
+        }
+        Ok(())
+    }
+    /// Draws a picture of this size on the device \[pixels\].
+    pub async fn draw(&mut self, [width, height]: [u32; 2]) -> Result<(), Error> {
+        let frame = &self.live.picture.frame;
+        if [frame.width, frame.height] != [width, height] {
+            self.pictures.size(width, height);
+            self.compose()?;
+        }
+        if self.live.picture.frame.count != self.simulation.capacity() {
+            self.compose_anew().await?;
+        }
+        let bounds = self.simulation.bounds().await?;
+        let scenery = self.pictures.scenery(&bounds, self.time);
+        self.live.picture.place(scenery.solids);
+        self.live.picture.contain(scenery.tanks);
+        let trail = self.pictures.trail().clone();
+        self.live.picture.retrace(trail);
+        self.simulation.show(&mut self.live).await
+    }
+    /// A picture of the known state; a camera that was moved by hand stays.
+    fn compose(&mut self) -> Result<(), Error> {
+        let camera = self.live.picture.frame.camera;
+        let trail = self.pictures.trail().clone();
+        let mut picture = self.pictures.of(&self.framed, trail)?;
+        if self.moved {
+            picture.frame.camera = camera;
+        }
+        self.live.change(picture);
+        Ok(())
+    }
+    /// The same of the present state.
+    async fn compose_anew(&mut self) -> Result<(), Error> {
+        self.framed = self.simulation.snapshot().await?;
+        self.compose()
+    }
+    /// Changes a key of the picture.
+    pub async fn look(&mut self, key: &'static str, value: Value) -> Result<(), Error> {
+        let old = self.pictures.looks().clone();
+        self.pictures.set(key, value);
+        let composed = self.compose_anew().await;
+        if composed.is_err() {
+            self.pictures.restore(old);
+            self.compose()?;
+        }
+        composed
+    }
+    /// Moves the camera.
+    pub fn camera(&mut self, moved: impl FnOnce(Camera) -> Camera) {
+        let camera = &mut self.live.picture.frame.camera;
+        let next = moved(*camera);
+        if next.center.is_finite() && next.extent.is_normal() && next.extent < 1e30 {
+            (*camera, self.moved) = (next, true);
+        }
+    }
+    /// All particles in the picture, from where the camera is.
+    pub async fn frame(&mut self) -> Result<(), Error> {
+        let camera = self.live.picture.frame.camera;
+        self.pictures.aim(&camera);
+        self.moved = false;
+        self.compose_anew().await
+    }
+    /// Changes a setting of a force. Where kernels depend on it, they are compiled anew for the present state, and this is said.
+    pub async fn set(&mut self, force: &str, setting: &str, value: Value) -> Result<Option<String>, Error> {
+        let Err(refused) = self.simulation.set(force, setting, value.clone()) else { return Ok(None) };
+        let place = self.simulation.settings().iter().position(|(name, _)| name == force);
+        let Some(place) = place else { return Err(refused) };
+        let mut setup = self.simulation.setup().clone();
+        // What is invalid stays refused.
+        setup.forces[place] = setup.forces[place].changed(setting, &value.into())?;
+        setup.state = self.simulation.snapshot().await?;
+        let setup = setup.in_its_box()?.into_owned();
+        self.simulation = (self.make)(&setup)?;
+        self.simulation.check().await?;
+        Ok(Some(format!("`{setting}` of `{force}` changes what kernels do: they were compiled anew")))
+    }
+    /// Back to the start, with the present settings.
+    pub async fn reset(&mut self) -> Result<(), Error> {
+        let forces = self.simulation.setup().forces.clone();
+        self.begin(&Setup { forces, ..self.start.clone() }).await
+    }
+    /// Back to the start, with the settings of the scene.
+    pub async fn restore(&mut self) -> Result<(), Error> {
+        self.begin(&self.start.clone()).await
+    }
+    async fn begin(&mut self, setup: &Setup) -> Result<(), Error> {
+        self.simulation = (self.make)(setup)?;
+        *self.pictures.trail() = Trail::new(setup.state.len());
+        self.time = setup.state.time;
+        self.compose_anew().await
+    }
+    /// A picture of the present state, and a name for its file.
+    pub async fn take(&mut self) -> Result<(Image, String), Error> {
+        let mut image = self.simulation.draw(&self.live.picture).await?;
+        if self.live.picture.annotated() {
+            image.annotate(&self.live.picture, self.time);
+        }
+        // Drawing it has taken the fields away.
+        self.live.change(self.live.picture.clone());
+        Ok((image, format!("{}_{:06}.png", self.name, self.simulation.steps())))
+    }
+}
