@@ -1,6 +1,7 @@
 //! What a window shows: a picture that a buffer holds, and controls beside it, which egui paints.
 
-use egui::{ClippedPrimitive, TextureId, TexturesDelta};
+use egui::epaint::ImageDelta;
+use egui::{ClippedPrimitive, Context, FullOutput, TextureId};
 use egui_wgpu::{Renderer, RendererOptions, ScreenDescriptor};
 
 use super::adapter::Found;
@@ -13,12 +14,24 @@ pub const ROW: u32 = 64;
 
 /// Controls, as egui gives them.
 pub struct Controls {
-    /// What is painted.
-    pub primitives: Vec<ClippedPrimitive>,
+    primitives: Vec<ClippedPrimitive>,
     /// Textures that are new, and those that are no longer used.
-    pub textures: TexturesDelta,
+    new: Vec<(TextureId, ImageDelta)>,
+    free: Vec<TextureId>,
     /// Pixels per point.
-    pub scale: f32,
+    scale: f32,
+}
+
+impl Controls {
+    /// What a pass of egui has made.
+    #[must_use]
+    pub fn of(context: &Context, output: FullOutput) -> Self {
+        let FullOutput { shapes, mut textures_delta, pixels_per_point: scale, .. } = output;
+        let set = std::mem::take(&mut textures_delta.set);
+        let new = set.into_iter().flat_map(|(id, deltas)| deltas.into_iter().map(move |delta| (id, delta))).collect();
+        let free = std::mem::take(&mut textures_delta.free).into_iter().collect();
+        Self { primitives: context.tessellate(shapes, scale), new, free, scale }
+    }
 }
 
 /// A device's means to paint controls and a picture.
@@ -72,7 +85,8 @@ impl Canvas {
         };
         fault::scoped(device, || {
             let mut encoder = device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
-            let layout = wgpu::TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(4 * width), rows_per_image: None };
+            let layout =
+                wgpu::TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(4 * width), rows_per_image: None };
             let from = wgpu::TexelCopyBufferInfo { buffer: pixels, layout };
             encoder.copy_buffer_to_texture(from, texture.as_image_copy(), size);
             queue.submit([encoder.finish()]);
@@ -84,10 +98,8 @@ impl Canvas {
     pub(super) fn skip(&mut self, controls: &Controls) -> Result<(), Error> {
         let (device, queue, renderer) = (&self.device, &self.queue, &mut self.renderer);
         fault::scoped(device, || {
-            for (id, deltas) in &controls.textures.set {
-                deltas.iter().for_each(|delta| renderer.update_texture(device, queue, *id, delta));
-            }
-            controls.textures.free.iter().for_each(|id| renderer.free_texture(id));
+            controls.new.iter().for_each(|(id, delta)| renderer.update_texture(device, queue, *id, delta));
+            controls.free.iter().for_each(|id| renderer.free_texture(id));
         })
     }
     /// Paints controls on all of a texture, and submits.
@@ -96,9 +108,7 @@ impl Canvas {
         let screen =
             ScreenDescriptor { size_in_pixels: [target.width(), target.height()], pixels_per_point: controls.scale };
         fault::scoped(device, || {
-            for (id, deltas) in &controls.textures.set {
-                deltas.iter().for_each(|delta| renderer.update_texture(device, queue, *id, delta));
-            }
+            controls.new.iter().for_each(|(id, delta)| renderer.update_texture(device, queue, *id, delta));
             let mut encoder = device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
             let mut buffers = renderer.update_buffers(device, queue, &mut encoder, &controls.primitives, &screen);
             let view = target.create_view(&wgpu::TextureViewDescriptor::default());
@@ -108,14 +118,17 @@ impl Canvas {
                     view: &view,
                     depth_slice: None,
                     resolve_target: None,
-                    ops: wgpu::Operations { load: wgpu::LoadOp::Clear(wgpu::Color::BLACK), store: wgpu::StoreOp::Store },
+                    ops: wgpu::Operations {
+                        load: wgpu::LoadOp::Clear(wgpu::Color::BLACK),
+                        store: wgpu::StoreOp::Store,
+                    },
                 })],
                 ..Default::default()
             });
             renderer.render(&mut pass.forget_lifetime(), &controls.primitives, &screen);
             buffers.push(encoder.finish());
             queue.submit(buffers);
-            controls.textures.free.iter().for_each(|id| renderer.free_texture(id));
+            controls.free.iter().for_each(|id| renderer.free_texture(id));
         })
     }
 }
@@ -172,10 +185,12 @@ impl Sheet {
         let bytes = 4 * u64::from(width) * u64::from(height);
         let buffer = fault::scoped(device, || {
             let usage = wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::COPY_SRC;
-            let descriptor = wgpu::BufferDescriptor { label: Some("sheet"), size: bytes, usage, mapped_at_creation: false };
+            let descriptor =
+                wgpu::BufferDescriptor { label: Some("sheet"), size: bytes, usage, mapped_at_creation: false };
             let buffer = device.create_buffer(&descriptor);
             let mut encoder = device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
-            let layout = wgpu::TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(4 * width), rows_per_image: None };
+            let layout =
+                wgpu::TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(4 * width), rows_per_image: None };
             let to = wgpu::TexelCopyBufferInfo { buffer: &buffer, layout };
             encoder.copy_texture_to_buffer(self.texture.as_image_copy(), to, self.texture.size());
             self.canvas.queue.submit([encoder.finish()]);

@@ -32,10 +32,10 @@ mod trail;
 pub use camera::{Camera, framed};
 pub use draw::{Image, draw};
 pub use exposure::Exposure;
-pub use film::{Film, shoot};
-pub use fluid::Water;
 #[cfg(feature = "view")]
 pub use fields::PIXELS;
+pub use film::{Film, shoot};
+pub use fluid::Water;
 pub use frame::Frame;
 pub use keys::KEYS;
 #[cfg(feature = "view")]

@@ -13,10 +13,10 @@ use crate::measure::Moment;
 use crate::render::{Color, Image, Picture, Scenery, Trail, framed, group_color, pack};
 use crate::scene::{Group, Scene};
 use crate::settings::Settings;
-#[cfg(feature = "view")]
-use crate::{render::Camera, settings::Value};
 use crate::simulation::Setup;
 use crate::state::State;
+#[cfg(feature = "view")]
+use crate::{render::Camera, settings::Value};
 
 /// The approximate number of points of a trail.
 const TRAIL: u64 = 1000;

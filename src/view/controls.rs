@@ -1,6 +1,9 @@
 //! The panel, and the place of the picture.
 
-use egui::{CentralPanel, CollapsingHeader, ComboBox, Frame, Image, Panel, PointerButton, Rect, ScrollArea, Sense, Slider, Ui, Vec2, load::SizedTexture, pos2};
+use egui::{
+    CentralPanel, CollapsingHeader, ComboBox, Frame, Image, Panel, PointerButton, Rect, ScrollArea, Sense, Slider, Ui,
+    Vec2, load::SizedTexture, pos2,
+};
 
 use super::action::Action;
 use super::{View, keyboard, sliders};
@@ -59,7 +62,9 @@ fn panel<B: Backend>(view: &mut View<B>, ui: &mut Ui) {
             view.actions.push(Action::Help);
         }
     });
-    ui.weak(&view.stage.about);
+    for part in view.stage.about.split("\n\n") {
+        ui.small(part.split_whitespace().collect::<Vec<_>>().join(" "));
+    }
     ui.separator();
     run(view, ui);
     if !view.message.is_empty() {
@@ -74,14 +79,14 @@ fn panel<B: Backend>(view: &mut View<B>, ui: &mut Ui) {
 
 fn run<B: Backend>(view: &mut View<B>, ui: &mut Ui) {
     ui.horizontal(|ui| {
-        let name = if view.paused { "▶ Run" } else { "⏸ Pause" };
+        let name = if view.paused { "Run" } else { "Pause" };
         if ui.button(name).on_hover_text("Space").clicked() {
             view.actions.push(Action::Pause);
         }
         if ui.button("Step").on_hover_text("one step: .").clicked() {
             view.actions.push(Action::Step);
         }
-        if ui.button("⟲ Reset").on_hover_text("back to the start, with these settings: R").clicked() {
+        if ui.button("Reset").on_hover_text("back to the start, with these settings: R").clicked() {
             view.actions.push(Action::Reset);
         }
         if ui.button("Scene").on_hover_text("back to the start, with the settings of the scene").clicked() {
@@ -105,8 +110,10 @@ fn run<B: Backend>(view: &mut View<B>, ui: &mut Ui) {
         row("time", plain(digits(view.stage.time())));
         row("step", simulation.steps().to_string());
         row("particles", simulation.count().to_string());
-        let rate = format!("{} of {} a second", plain(digits(now)), plain(digits(asked)));
-        row("speed", if short { format!("{rate}: as fast as it goes") } else { rate });
+        row("speed", format!("{} of {} / s", plain(digits(now)), plain(digits(asked))));
+        if short {
+            row("", "as fast as it goes".to_owned());
+        }
         let millis = |seconds: Option<f64>| seconds.map_or("…".to_owned(), |s| format!("{:.1} ms", 1e3 * s));
         row("a step takes", millis(view.pace.step));
         row("a picture takes", millis(view.pace.picture));
@@ -156,7 +163,7 @@ fn forces<B: Backend>(view: &mut View<B>, ui: &mut Ui) {
             continue;
         }
         let title = egui::RichText::new(name.replace('_', " "));
-        CollapsingHeader::new(title).id_salt(&name).default_open(settings.len() <= 4).show(ui, |ui| {
+        CollapsingHeader::new(title).id_salt(&name).default_open(settings.len() <= 12).show(ui, |ui| {
             sliders::show(ui, &name, &settings, &scene, &mut view.actions);
         });
     }

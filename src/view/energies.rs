@@ -63,7 +63,11 @@ impl Energies {
         });
         let change = last.total() - first.total();
         let scale = first.kinetic.abs().max(first.potential.abs());
-        let part = if scale > 0.0 { format!(", {:+.1e} of the larger part at the start", change / scale) } else { String::new() };
+        let part = if scale > 0.0 {
+            format!(", {:+.1e} of the larger part at the start", change / scale)
+        } else {
+            String::new()
+        };
         ui.label(format!("total {}, changed by {}{part}", plain(rounded(last.total())), plain(rounded(change))));
     }
 }

@@ -85,9 +85,8 @@ impl<B: Backend> View<B> {
         })
     }
     /// The simulation, whose field [`PICTURE`] holds the last picture.
-    #[must_use]
-    pub fn simulation(&self) -> &Simulation<B> {
-        &self.stage.simulation
+    pub fn simulation(&mut self) -> &mut Simulation<B> {
+        &mut self.stage.simulation
     }
     /// The pixels of the last picture, from left to right and from top to bottom.
     #[must_use]

@@ -22,7 +22,7 @@ pub fn show(ui: &mut Ui, force: &str, settings: &[Setting<'_>], scene: &[Setting
         ui.horizontal(|ui| {
             let name = egui::RichText::new(now.name);
             let label = ui.label(if changed { name.strong() } else { name }).on_hover_text(about(now, start));
-            if changed && ui.small_button("↺").on_hover_text("the value of the scene").clicked() {
+            if changed && ui.small_button("reset").on_hover_text("the value of the scene").clicked() {
                 set(start.value.clone());
             }
             if let Some(value) = control(ui, now, start.value, &label) {

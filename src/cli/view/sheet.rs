@@ -30,12 +30,11 @@ pub async fn draw(args: &ViewArgs, file: &Path) -> Result<(), Failure> {
     for frame in 0..=frames {
         let input = RawInput { screen_rect: Some(screen), time: Some(frame as f64 / 60.0), ..RawInput::default() };
         let output = context.run_ui(input, |ui| view.controls(ui));
-        let scale = output.pixels_per_point;
-        let primitives = context.tessellate(output.shapes, scale);
+        let controls = Controls::of(&context, output);
         view.pause(frame == frames);
         view.advance().await?;
         show(&mut view, &mut sheet)?;
-        sheet.paint(&Controls { primitives, textures: output.textures_delta, scale })?;
+        sheet.paint(&controls)?;
         found.faults.check()?;
     }
     Image { width, height, rgba: sheet.read().await?, outside: 0, broken: 0 }.save(file)?;

@@ -143,26 +143,26 @@ impl Shell {
             self.open_scene(args, &name);
         }
         let input = self.input.take_egui_input(&self.window);
-        let output = self.context.run_ui(input, |ui| self.view.controls(ui));
-        self.input.handle_platform_output(&self.window, output.platform_output);
-        let scale = output.pixels_per_point;
-        let primitives = self.context.tessellate(output.shapes, scale);
+        let mut output = self.context.run_ui(input, |ui| self.view.controls(ui));
+        self.input.handle_platform_output(&self.window, std::mem::take(&mut output.platform_output));
+        let soon = output.viewport_output.values().any(|viewport| viewport.repaint_delay < LOOK);
+        let controls = Controls::of(&self.context, output);
         block_on(self.view.advance())?;
         if let Some(name) = self.view.wanted() {
             self.open_scene(args, &name);
             block_on(self.view.advance())?;
         }
         if let Some(taken) = self.view.take() {
-            self.view.say(save(&taken).map_or_else(|error| error.to_string(), |file| format!("saved {}", file.display())));
+            self.view
+                .say(save(&taken).map_or_else(|error| error.to_string(), |file| format!("saved {}", file.display())));
         }
         let size = self.view.size();
         if let Some(pixels) = self.view.simulation().buffer(PICTURE) {
             let id = self.surface.canvas().take(pixels, size)?;
             self.view.show(id);
         }
-        self.surface.paint(&Controls { primitives, textures: output.textures_delta, scale })?;
+        self.surface.paint(&controls)?;
         self.frames += 1;
-        let soon = output.viewport_output.values().any(|viewport| viewport.repaint_delay < LOOK);
         if !self.view.is_paused() || soon || self.frames < 3 {
             self.window.request_redraw();
         }

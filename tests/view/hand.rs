@@ -1,0 +1,158 @@
+//! A hand at the viewer: what a window would send, frame by frame.
+
+use egui::accesskit::{Node, NodeId};
+use egui::{
+    Context, Event, Key, Modifiers, MouseWheelSource, MouseWheelUnit, PointerButton, Pos2, RawInput, Rect, TouchPhase,
+    Vec2,
+};
+use motes::scene::{Options, Scene, Source};
+use motes::settings::Value;
+use motes::view::{PICTURE, View};
+use motes::{Gpu, POSITION, Simulation, gpu};
+use pollster::block_on;
+
+/// A view of 820 by 600 points, with a panel at its right.
+pub struct Hand {
+    view: View<Gpu>,
+    context: Context,
+    nodes: Vec<(NodeId, Node)>,
+    frames: u32,
+    /// The device lives as long as the view.
+    _found: gpu::Found,
+}
+
+impl Hand {
+    /// A view of a scene, with a step in each frame. A missing adapter is a failure.
+    pub fn on(scene: &str, overrides: &[&str]) -> Self {
+        let overrides: Vec<String> = overrides.iter().map(ToString::to_string).collect();
+        let source = Source::find(scene).unwrap_or_else(|faults| panic!("{faults}"));
+        let mut scene =
+            Scene::load(&source, &overrides, &Options::default()).unwrap_or_else(|faults| panic!("{faults}"));
+        let setup = scene.setup();
+        let found = block_on(gpu::best()).expect("an adapter");
+        let (device, queue) = (found.device.clone(), found.queue.clone());
+        let make = Box::new(move |setup: &_| Simulation::new(&device, &queue, setup));
+        let mut view = block_on(View::new(&scene, setup, make)).expect("a view");
+        view.each_frame(1);
+        let context = Context::default();
+        context.enable_accesskit();
+        let mut hand = Self { view, context, nodes: Vec::new(), frames: 0, _found: found };
+        // The panel takes its place before anything runs.
+        hand.view.pause(true);
+        hand.frames(3);
+        hand.view.pause(false);
+        hand
+    }
+    fn frame(&mut self, events: Vec<Event>) {
+        let modifiers = events.iter().find_map(|event| match event {
+            Event::Key { modifiers, .. } => Some(*modifiers),
+            _ => None,
+        });
+        let screen_rect = Some(Rect::from_min_size(Pos2::ZERO, Vec2::new(820.0, 600.0)));
+        let time = Some(f64::from(self.frames) / 60.0);
+        let held = Event::ModifiersChanged(modifiers.unwrap_or_default());
+        let events = std::iter::once(held).chain(events).collect();
+        let input = RawInput { screen_rect, time, events, focused: true, ..RawInput::default() };
+        let mut output = self.context.run_ui(input, |ui| self.view.controls(ui));
+        // There is no screen to be painted.
+        output.textures_delta.clear();
+        if let Some(update) = output.platform_output.accesskit_update {
+            self.nodes = update.nodes;
+        }
+        block_on(self.view.advance()).expect("a frame");
+        self.frames += 1;
+    }
+    pub fn frames(&mut self, count: u32) {
+        (0..count).for_each(|_| self.frame(Vec::new()));
+    }
+    /// Frames until so many steps are done.
+    pub fn until(&mut self, steps: u64) {
+        while self.steps() < steps {
+            self.frame(Vec::new());
+        }
+        assert_eq!(self.steps(), steps);
+    }
+    pub fn steps(&mut self) -> u64 {
+        self.view.simulation().steps()
+    }
+    pub fn message(&self) -> &str {
+        self.view.message()
+    }
+    pub fn size(&self) -> [u32; 2] {
+        self.view.size()
+    }
+    /// Presses a key, and releases it.
+    pub fn key(&mut self, key: Key, modifiers: Modifiers) {
+        for pressed in [true, false] {
+            self.frame(vec![Event::Key { key, physical_key: None, pressed, repeat: false, modifiers }]);
+        }
+    }
+    fn button(&mut self, pos: Pos2, button: PointerButton, pressed: bool) {
+        self.frame(vec![Event::PointerButton { pos, button, pressed, modifiers: Modifiers::NONE }]);
+    }
+    pub fn click(&mut self, pos: Pos2) {
+        self.frame(vec![Event::PointerMoved(pos)]);
+        self.button(pos, PointerButton::Primary, true);
+        self.button(pos, PointerButton::Primary, false);
+    }
+    /// Drags from a place.
+    pub fn drag(&mut self, from: Pos2, by: Vec2, button: PointerButton) {
+        self.frame(vec![Event::PointerMoved(from)]);
+        self.button(from, button, true);
+        for part in [0.5, 1.0] {
+            self.frame(vec![Event::PointerMoved(from + part * by)]);
+        }
+        self.button(from + by, button, false);
+        self.frames(1);
+    }
+    /// Turns the wheel at a place, and waits until it has come to rest.
+    pub fn wheel(&mut self, at: Pos2, points: f32) {
+        self.frame(vec![Event::PointerMoved(at)]);
+        let (unit, delta, modifiers) = (MouseWheelUnit::Point, Vec2::new(0.0, points), Modifiers::NONE);
+        self.frame(vec![Event::MouseWheel {
+            unit,
+            delta,
+            phase: TouchPhase::Move,
+            source: MouseWheelSource::Unknown,
+            modifiers,
+        }]);
+        self.frames(20);
+    }
+    /// The middle of what has a label.
+    pub fn place(&self, label: &str) -> Pos2 {
+        let named = |node: &Node| node.label() == Some(label) || node.value() == Some(label);
+        let node = self.nodes.iter().map(|(_, node)| node).find(|node| named(node) && node.bounds().is_some());
+        let known: Vec<_> = self.nodes.iter().filter_map(|(_, node)| node.label().or(node.value())).collect();
+        middle(node.unwrap_or_else(|| panic!("no `{label}` among {known:?}")))
+    }
+    /// The middle of the control that a label belongs to.
+    pub fn place_beside(&self, label: &str) -> Pos2 {
+        let is_label = |node: &Node| node.label() == Some(label) || node.value() == Some(label);
+        let ids: Vec<NodeId> = self.nodes.iter().filter(|(_, node)| is_label(node)).map(|(id, _)| *id).collect();
+        let of = |node: &&Node| node.labelled_by().iter().any(|id| ids.contains(id)) && node.bounds().is_some();
+        let node = self.nodes.iter().map(|(_, node)| node).find(of);
+        middle(node.unwrap_or_else(|| panic!("no control of `{label}`, which {} nodes are", ids.len())))
+    }
+    /// A setting of a force, as it is.
+    pub fn setting(&mut self, force: &str, name: &str) -> Value {
+        let settings = self.view.simulation().settings();
+        let (_, settings) = settings.iter().find(|(known, _)| known == force).expect("a force");
+        settings.iter().find(|setting| setting.name == name).expect("a setting").value.clone()
+    }
+    pub fn positions(&mut self) -> Vec<[u32; 4]> {
+        let positions = block_on(self.view.simulation().read(POSITION)).expect("positions");
+        positions.iter().map(|x| x.to_array().map(f32::to_bits)).collect()
+    }
+    /// The picture: red, green, blue and alpha of each pixel.
+    pub fn picture(&mut self) -> Vec<u8> {
+        let pixels = block_on(self.view.simulation().read(PICTURE)).expect("a picture");
+        let area = self.view.size().map(|side| side as usize).iter().product();
+        pixels.into_iter().take(area).flat_map(u32::to_le_bytes).collect()
+    }
+}
+
+#[expect(clippy::cast_possible_truncation, reason = "a place on a screen")]
+fn middle(node: &Node) -> Pos2 {
+    let bounds = node.bounds().expect("bounds");
+    Pos2::new(0.5 * (bounds.x0 + bounds.x1) as f32, 0.5 * (bounds.y0 + bounds.y1) as f32)
+}

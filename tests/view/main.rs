@@ -1,0 +1,126 @@
+//! The viewer, by hand: events as a window gives them, and what they do to the run and to its picture.
+
+mod hand;
+
+use std::process::Command;
+
+use egui::{Key, Modifiers, PointerButton, Pos2, Vec2};
+use hand::Hand;
+use motes::settings::Value;
+
+const BIN: &str = env!("CARGO_BIN_EXE_motes");
+
+/// Lit pixels of part of a picture, as a fraction of it: those that are brighter than the night.
+fn lit(rgba: &[u8], width: usize, columns: std::ops::Range<usize>) -> f64 {
+    let rows = rgba.chunks_exact(4 * width);
+    let pixels: Vec<bool> = rows
+        .flat_map(|row| row.chunks_exact(4).skip(columns.start).take(columns.len()))
+        .map(|pixel| pixel[..3].iter().any(|part| *part > 60))
+        .collect();
+    pixels.iter().filter(|lit| **lit).count() as f64 / pixels.len() as f64
+}
+
+#[test]
+fn frames_without_a_window_show_the_run_and_the_panel() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let file = folder.path().join("view.png");
+    let run = Command::new(BIN)
+        .args(["view", "galaxy", "--scale", "0.05", "--frames", "3", "--size", "900x500", "--screenshot"])
+        .arg(&file)
+        .output()
+        .expect("the program");
+    let said = String::from_utf8_lossy(&run.stdout).into_owned();
+    assert!(run.status.success(), "{said}{}", String::from_utf8_lossy(&run.stderr));
+    assert!(said.starts_with("3 frames, 3 steps"), "{said}");
+    let decoder = png::Decoder::new(std::io::BufReader::new(std::fs::File::open(&file).expect("a picture")));
+    let mut reader = decoder.read_info().expect("a PNG");
+    let mut rgb = vec![0; reader.output_buffer_size().expect("a size")];
+    let info = reader.next_frame(&mut rgb).expect("pixels");
+    assert_eq!((info.width, info.height), (960, 500), "the width is rounded up to whole rows of a copy");
+    let rgba: Vec<u8> = rgb.chunks_exact(3).flat_map(|p| [p[0], p[1], p[2], 255]).collect();
+    let (scene, panel) = (lit(&rgba, 960, 0..600), lit(&rgba, 960, 700..960));
+    assert!(scene > 0.02, "the galaxy is not there: {scene}");
+    assert!((0.02..0.9).contains(&panel), "the panel is not there: {panel}");
+}
+
+#[test]
+fn keys_pause_step_and_go_back() {
+    let mut hand = Hand::on("plummer", &["particles.0.count=500"]);
+    hand.frames(3);
+    assert_eq!(hand.steps(), 3);
+    hand.key(Key::Space, Modifiers::NONE);
+    hand.frames(3);
+    let paused = hand.steps();
+    hand.frames(2);
+    assert_eq!(hand.steps(), paused, "a paused run moves");
+    hand.key(Key::Period, Modifiers::NONE);
+    assert_eq!(hand.steps(), paused + 1);
+    hand.key(Key::Space, Modifiers::NONE);
+    hand.until(20);
+    let first = hand.positions();
+    hand.key(Key::R, Modifiers::NONE);
+    assert!(hand.steps() <= 1, "{} steps after going back", hand.steps());
+    hand.until(20);
+    assert_eq!(hand.positions(), first, "another run from the same start");
+    // Shortcuts with Ctrl belong to others.
+    let steps = hand.steps();
+    hand.key(Key::R, Modifiers::CTRL);
+    assert!(hand.steps() > steps);
+}
+
+#[test]
+fn dragging_turns_the_picture_and_the_wheel_comes_closer() {
+    let mut hand = Hand::on("plummer", &["particles.0.count=500"]);
+    hand.key(Key::Space, Modifiers::NONE);
+    hand.frames(2);
+    let (before, middle) = (hand.picture(), Pos2::new(250.0, 200.0));
+    hand.frames(2);
+    assert_eq!(hand.picture(), before, "nothing moves, and the picture changes");
+    hand.drag(middle, Vec2::new(60.0, 20.0), PointerButton::Primary);
+    let turned = hand.picture();
+    assert_ne!(turned, before);
+    hand.wheel(middle, 100.0);
+    let closer = hand.picture();
+    assert_ne!(closer, turned);
+    let width = hand.size()[0] as usize;
+    let [far, near] = [&turned, &closer].map(|rgba| lit(rgba, width, 0..width));
+    assert!(near > 1.02 * far, "closer, particles fill more of the picture: {near} after {far}");
+    hand.key(Key::F, Modifiers::NONE);
+    assert_ne!(hand.picture(), closer);
+}
+
+#[test]
+fn a_slider_changes_the_force_while_the_run_goes_on() {
+    let mut hand = Hand::on("plummer", &["particles.0.count=500"]);
+    hand.frames(3);
+    let softening = |hand: &mut Hand| hand.setting("gravity", "softening");
+    let before = softening(&mut hand);
+    let place = hand.place_beside("softening");
+    hand.drag(place, Vec2::new(40.0, 0.0), PointerButton::Primary);
+    let after = softening(&mut hand);
+    let (Value::Number(before), Value::Number(after)) = (before, after) else { panic!("numbers") };
+    assert!((after - before).abs() > 1e-3 * before, "{before} stays {after}");
+    assert_eq!(hand.message(), "");
+    let steps = hand.steps();
+    hand.frames(3);
+    assert_eq!(hand.steps(), steps + 3, "the run goes on");
+    // Back to the settings of the scene.
+    let place = hand.place("Scene");
+    hand.click(place);
+    hand.frames(1);
+    assert_eq!(softening(&mut hand), Value::Number(before));
+}
+
+#[test]
+fn what_kernels_depend_on_is_compiled_anew_and_said() {
+    let mut hand = Hand::on("galaxy", &["particles.0.count=2000"]);
+    hand.frames(2);
+    let before = hand.setting("gravity", "theta");
+    let place = hand.place_beside("theta");
+    hand.drag(place, Vec2::new(-25.0, 0.0), PointerButton::Primary);
+    assert_ne!(hand.setting("gravity", "theta"), before, "{}", hand.message());
+    assert!(hand.message().contains("compiled anew"), "{}", hand.message());
+    let steps = hand.steps();
+    hand.frames(2);
+    assert_eq!(hand.steps(), steps + 2, "the run goes on where it was");
+}
