@@ -13,7 +13,7 @@ use egui::{TextureId, Ui};
 use web_time::Instant;
 
 use crate::error::Error;
-use crate::kernel::{Backend, Field};
+use crate::kernel::{Array, Backend, Element as _, Field};
 use crate::render::{Image, PIXELS};
 use crate::scene::Scene;
 use crate::simulation::{Setup, Simulation};
@@ -93,6 +93,15 @@ impl<B: Backend> View<B> {
     pub fn size(&self) -> [u32; 2] {
         let frame = &self.stage.picture().frame;
         [frame.width, frame.height]
+    }
+    /// Reads the last picture: red, green, blue and alpha of each pixel, row by row from the top. A shell needs no copy.
+    ///
+    /// # Errors
+    /// When the device is lost, out of memory or does not answer in time.
+    pub async fn pixels(&mut self) -> Result<Vec<u8>, Error> {
+        let area = self.size().map(|side| side as usize).iter().product();
+        let words = self.stage.simulation.backend().read(PICTURE.name, &Array::Uint(Vec::new()), area).await?;
+        Ok(u32::view(&words).into_iter().flatten().flat_map(|word| word.to_le_bytes()).collect())
     }
     /// Shows the last picture under this name from now on.
     pub fn show(&mut self, texture: TextureId) {

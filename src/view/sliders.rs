@@ -69,11 +69,14 @@ fn control(ui: &mut Ui, now: &Setting<'_>, scene: &Value, label: &egui::Response
             let (low, high, logarithmic) = range(kind, *start);
             let mut value = *x;
             let mut slider = Slider::new(&mut value, low..=high).clamping(SliderClamping::Never);
-            slider = if kind.is_whole() { slider.step_by(1.0) } else { slider.max_decimals(6) };
+            let speed = 0.005 * if *start == 0.0 { 1.0 } else { start.abs() };
+            slider = if kind.is_whole() { slider.step_by(1.0) } else { slider.max_decimals(6).drag_value_speed(speed) };
             if logarithmic {
                 slider = slider.logarithmic(true).smallest_positive(high / REACH.powi(3));
             }
             let response = ui.add(slider).labelled_by(label.id);
+            // What was dragged beyond what is accepted ends there.
+            let value = if kind.outside(value).is_some() { value.clamp(low, high) } else { value };
             response.changed().then_some(Value::Number(value))
         }
         (Kind::Choice(known), Value::Text(word), _) => {

@@ -7,11 +7,11 @@ use egui::{
 };
 use motes::scene::{Options, Scene, Source};
 use motes::settings::Value;
-use motes::view::{PICTURE, View};
+use motes::view::View;
 use motes::{Gpu, POSITION, Simulation, gpu};
 use pollster::block_on;
 
-/// A view of 820 by 600 points, with a panel at its right.
+/// A view of 820 by 1200 points, with a panel at its right.
 pub struct Hand {
     view: View<Gpu>,
     context: Context,
@@ -48,7 +48,7 @@ impl Hand {
             Event::Key { modifiers, .. } => Some(*modifiers),
             _ => None,
         });
-        let screen_rect = Some(Rect::from_min_size(Pos2::ZERO, Vec2::new(820.0, 600.0)));
+        let screen_rect = Some(Rect::from_min_size(Pos2::ZERO, Vec2::new(820.0, 1200.0)));
         let time = Some(f64::from(self.frames) / 60.0);
         let held = Event::ModifiersChanged(modifiers.unwrap_or_default());
         let events = std::iter::once(held).chain(events).collect();
@@ -145,9 +145,7 @@ impl Hand {
     }
     /// The picture: red, green, blue and alpha of each pixel.
     pub fn picture(&mut self) -> Vec<u8> {
-        let pixels = block_on(self.view.simulation().read(PICTURE)).expect("a picture");
-        let area = self.view.size().map(|side| side as usize).iter().product();
-        pixels.into_iter().take(area).flat_map(u32::to_le_bytes).collect()
+        block_on(self.view.pixels()).expect("a picture")
     }
 }
 

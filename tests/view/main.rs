@@ -20,6 +20,13 @@ fn lit(rgba: &[u8], width: usize, columns: std::ops::Range<usize>) -> f64 {
     pixels.iter().filter(|lit| **lit).count() as f64 / pixels.len() as f64
 }
 
+/// The mean distance of lit pixels from the middle column.
+fn spread(rgba: &[u8], width: usize) -> f64 {
+    let pixels = rgba.chunks_exact(4).enumerate().filter(|(_, pixel)| pixel[..3].iter().any(|part| *part > 60));
+    let places: Vec<f64> = pixels.map(|(place, _)| ((place % width) as f64 - 0.5 * width as f64).abs()).collect();
+    places.iter().sum::<f64>() / places.len() as f64
+}
+
 #[test]
 fn frames_without_a_window_show_the_run_and_the_panel() {
     let folder = tempfile::tempdir().expect("a folder");
@@ -59,7 +66,7 @@ fn keys_pause_step_and_go_back() {
     hand.until(20);
     let first = hand.positions();
     hand.key(Key::R, Modifiers::NONE);
-    assert!(hand.steps() <= 1, "{} steps after going back", hand.steps());
+    assert!(hand.steps() <= 2, "{} steps after going back", hand.steps());
     hand.until(20);
     assert_eq!(hand.positions(), first, "another run from the same start");
     // Shortcuts with Ctrl belong to others.
@@ -73,7 +80,7 @@ fn dragging_turns_the_picture_and_the_wheel_comes_closer() {
     let mut hand = Hand::on("plummer", &["particles.0.count=500"]);
     hand.key(Key::Space, Modifiers::NONE);
     hand.frames(2);
-    let (before, middle) = (hand.picture(), Pos2::new(250.0, 200.0));
+    let (before, middle) = (hand.picture(), Pos2::new(250.0, 600.0));
     hand.frames(2);
     assert_eq!(hand.picture(), before, "nothing moves, and the picture changes");
     hand.drag(middle, Vec2::new(60.0, 20.0), PointerButton::Primary);
@@ -83,8 +90,8 @@ fn dragging_turns_the_picture_and_the_wheel_comes_closer() {
     let closer = hand.picture();
     assert_ne!(closer, turned);
     let width = hand.size()[0] as usize;
-    let [far, near] = [&turned, &closer].map(|rgba| lit(rgba, width, 0..width));
-    assert!(near > 1.02 * far, "closer, particles fill more of the picture: {near} after {far}");
+    let [far, near] = [&turned, &closer].map(|rgba| spread(rgba, width));
+    assert!(near > 1.05 * far, "closer, particles are farther from the middle: {near} after {far} pixels");
     hand.key(Key::F, Modifiers::NONE);
     assert_ne!(hand.picture(), closer);
 }
@@ -113,12 +120,16 @@ fn a_slider_changes_the_force_while_the_run_goes_on() {
 
 #[test]
 fn what_kernels_depend_on_is_compiled_anew_and_said() {
-    let mut hand = Hand::on("galaxy", &["particles.0.count=2000"]);
+    let mut hand = Hand::on("flock", &["particles.0.count=500"]);
     hand.frames(2);
-    let before = hand.setting("gravity", "theta");
-    let place = hand.place_beside("theta");
-    hand.drag(place, Vec2::new(-25.0, 0.0), PointerButton::Primary);
-    assert_ne!(hand.setting("gravity", "theta"), before, "{}", hand.message());
+    let before = hand.setting("boids", "range");
+    // A force with many settings is folded at first.
+    let place = hand.place("boids");
+    hand.click(place);
+    hand.frames(30);
+    let place = hand.place_beside("range");
+    hand.drag(place, Vec2::new(25.0, 0.0), PointerButton::Primary);
+    assert_ne!(hand.setting("boids", "range"), before, "{}", hand.message());
     assert!(hand.message().contains("compiled anew"), "{}", hand.message());
     let steps = hand.steps();
     hand.frames(2);
