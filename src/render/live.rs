@@ -38,7 +38,6 @@ impl Live {
     /// When the picture does not fit the device, or the device is lost, out of memory or does not answer in time.
     pub async fn draw<B: Backend>(&mut self, backend: &mut B) -> Result<(), Error> {
         let fields = self.picture.plan()?.fields(self.picture.frame.count);
-        let fields: BTreeMap<String, u64> = fields.into_iter().map(|(name, bytes)| (name.to_string(), bytes)).collect();
         if fields != self.fields {
             FIELDS.iter().for_each(|field| backend.forget(field));
             self.fields = fields;

@@ -87,6 +87,7 @@ impl Pictures {
         self.trail.wanted() && steps.is_multiple_of(self.stride)
     }
     /// The objects beside the particles at a time, in a box that may have changed since the start.
+    #[must_use]
     pub fn scenery(&self, bounds: &Bounds, time: f64) -> Scenery {
         if *bounds == self.bounds { self.scenery.at(time) } else { self.scenery.clone().within(bounds).at(time) }
     }

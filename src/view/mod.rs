@@ -160,7 +160,7 @@ impl<B: Backend> View<B> {
             }
         }
         let begun = Instant::now();
-        self.stage.draw(self.size).await?;
+        self.stage.draw(self.size, self.paused).await?;
         self.pace.drawn(begun.elapsed());
         self.shown = true;
         Ok(())

@@ -93,7 +93,7 @@ mod tests {
         let (across, up) = place(&closer, x);
         assert!((across - 0.5).abs() < 1e-12 && (up + 0.25).abs() < 1e-12, "{across} {up}");
         assert!((closer.extent - 1.0).abs() < 1e-12);
-        assert_eq!(other_projection(parallel).distance, from.distance);
+        assert!((other_projection(parallel).distance - from.distance).abs() < 1e-12);
         let (across, up) = place(&shifted(parallel, 0.2, 0.1), x);
         assert!((across - 0.7).abs() < 1e-12 && (up + 0.15).abs() < 1e-12);
     }

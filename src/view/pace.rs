@@ -96,7 +96,7 @@ mod tests {
         let mut pace = Pace::new(0.01);
         (pace.wanted, pace.step) = (10.0, Some(1e-4));
         let steps: Vec<u32> = (0..60).map(|_| pace.count(1.0 / 60.0)).collect();
-        assert!((9..=10).contains(&steps.iter().sum()), "{steps:?}");
+        assert!((9..=10).contains(&steps.iter().sum::<u32>()), "{steps:?}");
         assert!(steps.iter().all(|steps| *steps <= 1));
     }
 }

@@ -126,6 +126,6 @@ mod tests {
                 assert_eq!((kind.outside(low), kind.outside(high)), (None, None), "{kind:?} {scene}: {low} to {high}");
             }
         }
-        assert_eq!(range(Kind::Fraction, 0.2).1, 1.0);
+        assert!(range(Kind::Fraction, 0.2).1 <= 1.0);
     }
 }

@@ -28,6 +28,8 @@ pub struct Stage<B: Backend> {
     /// Whether the camera was moved by hand.
     moved: bool,
     time: f64,
+    /// Samples of a pixel each way where edges are smooth.
+    fine: u32,
 }
 
 impl<B: Backend> Stage<B> {
@@ -38,9 +40,9 @@ impl<B: Backend> Stage<B> {
         let framed = simulation.snapshot().await?;
         let trail = pictures.trail().clone();
         let live = Live::new(pictures.of(&framed, trail)?);
-        let time = framed.time;
+        let (time, fine) = (framed.time, live.picture.frame.fine);
         let (name, about) = (scene.name.clone(), scene.about.clone());
-        Ok(Self { name, about, simulation, start, make, pictures, live, framed, moved: false, time })
+        Ok(Self { name, about, simulation, start, make, pictures, live, framed, moved: false, time, fine })
     }
     pub fn dt(&self) -> f64 {
         self.start.dt
@@ -74,8 +76,8 @@ impl<B: Backend> Stage<B> {
         }
         Ok(())
     }
-    /// Draws a picture of this size on the device \[pixels\].
-    pub async fn draw(&mut self, [width, height]: [u32; 2]) -> Result<(), Error> {
+    /// Draws a picture of this size on the device \[pixels\]: with smooth edges where there is time for them.
+    pub async fn draw(&mut self, [width, height]: [u32; 2], smooth: bool) -> Result<(), Error> {
         let frame = &self.live.picture.frame;
         if [frame.width, frame.height] != [width, height] {
             self.pictures.size(width, height);
@@ -84,6 +86,7 @@ impl<B: Backend> Stage<B> {
         if self.live.picture.frame.count != self.simulation.capacity() {
             self.compose_anew().await?;
         }
+        self.live.picture.frame.fine = if smooth { self.fine } else { 1 };
         let bounds = self.simulation.bounds().await?;
         let scenery = self.pictures.scenery(&bounds, self.time);
         self.live.picture.place(scenery.solids);
@@ -100,6 +103,7 @@ impl<B: Backend> Stage<B> {
         if self.moved {
             picture.frame.camera = camera;
         }
+        self.fine = picture.frame.fine;
         self.live.change(picture);
         Ok(())
     }
@@ -165,6 +169,7 @@ impl<B: Backend> Stage<B> {
     }
     /// A picture of the present state, and a name for its file.
     pub async fn take(&mut self) -> Result<(Image, String), Error> {
+        self.live.picture.frame.fine = self.fine;
         let mut image = self.simulation.draw(&self.live.picture).await?;
         if self.live.picture.annotated() {
             image.annotate(&self.live.picture, self.time);
