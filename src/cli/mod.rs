@@ -87,7 +87,7 @@ async fn dispatch(command: Command) -> Result<(), Failure> {
     match command {
         Command::Run(args) => run::run(&args).await,
         Command::Resume(args) => run::resume(&args).await,
-        Command::View(args) => view::view(&args).await,
+        Command::View(args) => Box::pin(view::view(&args)).await,
         Command::Check(args) => check::check(&args).await,
         Command::Explain(args) => explain::explain(&args).await,
         Command::Compare(args) => compare::compare(&args).await,

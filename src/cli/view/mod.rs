@@ -12,7 +12,7 @@ use super::failure::Failure;
 #[cfg(feature = "view")]
 pub async fn view(args: &ViewArgs) -> Result<(), Failure> {
     match &args.screenshot {
-        Some(file) => sheet::draw(args, file).await,
+        Some(file) => Box::pin(sheet::draw(args, file)).await,
         None => window::run(args),
     }
 }
