@@ -110,7 +110,7 @@ fn run<B: Backend>(view: &mut View<B>, ui: &mut Ui) {
         row("time", plain(digits(view.stage.time())));
         row("step", simulation.steps().to_string());
         row("particles", simulation.count().to_string());
-        row("speed", format!("{} of {} / s", plain(digits(now)), plain(digits(asked))));
+        row("time per second", format!("{} of {}", plain(digits(now)), plain(digits(asked))));
         if short {
             row("", "as fast as it goes".to_owned());
         }

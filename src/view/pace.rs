@@ -8,6 +8,8 @@ const BUDGET: Duration = Duration::from_millis(12);
 const RATE: f64 = 60.0;
 /// The part by which a measured time replaces the mean.
 const FOLLOW: f64 = 0.2;
+/// The time since the last frame for which steps are due, at most \[seconds\].
+const LONGEST: f64 = 0.25;
 /// Steps in a frame, at most.
 const MOST: u32 = 4096;
 
@@ -42,9 +44,17 @@ impl Pace {
     /// The steps of the next frame: as many as are due, or as fit its time. What is missing is not made up for.
     pub fn steps(&mut self) -> u32 {
         let now = Instant::now();
-        let passed = self.last.map_or(0.0, |last| (now - last).as_secs_f64().min(0.25));
+        let passed = self.last.map_or(0.0, |last| (now - last).as_secs_f64());
         self.last = Some(now);
-        self.fixed.unwrap_or_else(|| self.count(passed))
+        let steps = self.fixed.unwrap_or_else(|| self.count(passed.min(LONGEST)));
+        self.passed(steps, passed);
+        steps
+    }
+    /// So many steps were made in so many seconds.
+    fn passed(&mut self, steps: u32, seconds: f64) {
+        if seconds > 0.0 {
+            self.rate += FOLLOW * (f64::from(steps) / seconds - self.rate);
+        }
     }
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a number of steps, which is bounded")]
     fn count(&mut self, passed: f64) -> u32 {
@@ -52,9 +62,6 @@ impl Pace {
         self.due += self.wanted * passed;
         let steps = self.due.floor().min(fit.floor()).clamp(0.0, f64::from(MOST));
         self.due = (self.due - steps).min(1.0);
-        if passed > 0.0 {
-            self.rate += FOLLOW * (steps / passed - self.rate);
-        }
         steps as u32
     }
     /// Steps took so long.
@@ -81,12 +88,17 @@ mod tests {
     fn cheap_steps_are_made_as_wanted_and_dear_ones_one_by_one() {
         let mut pace = Pace::new(0.01);
         (pace.wanted, pace.step) = (100.0, Some(1e-4));
-        let steps: u32 = (0..60).map(|_| pace.count(1.0 / 60.0)).sum();
+        let frames: Vec<u32> = (0..60).map(|_| pace.count(1.0 / 60.0)).collect();
+        let steps: u32 = frames.iter().sum();
         assert!((99..=100).contains(&steps), "{steps}");
+        frames.iter().for_each(|steps| pace.passed(*steps, 1.0 / 60.0));
         assert!((pace.speeds()[1] - 1.0).abs() < 0.3, "{:?}", pace.speeds());
         pace.step = Some(0.1);
         let steps: Vec<u32> = (0..10).map(|_| pace.count(0.1)).collect();
         assert!(steps.iter().all(|steps| *steps == 1), "{steps:?}");
+        // A step of half a second is one of two steps per second.
+        (0..60).for_each(|_| pace.passed(1, 0.5));
+        assert!((pace.rate - 2.0).abs() < 0.01, "{}", pace.rate);
         // What was missed is not made up for.
         pace.step = Some(1e-4);
         assert!(pace.count(0.01) <= 2);
