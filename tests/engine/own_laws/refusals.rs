@@ -38,7 +38,7 @@ fn refused(over: Over, wgsl: &str, words: &[&str]) {
     let shared = support::device();
     let (begin, busy) = (Instant::now(), busy());
     let error = made(&shared, over, wgsl, &[], ("leapfrog", 40)).map(|_| ()).expect_err(wgsl);
-    let worked = self::busy().zip(busy).map_or_else(|| begin.elapsed(), |(now, then)| now - then);
+    let worked = self::busy().zip(busy).map_or_else(|| begin.elapsed(), |(now, then)| now.saturating_sub(then));
     assert!(matches!(error, Error::Shader { .. }), "{wgsl}: {error:?}");
     assert_eq!(error.exit_code(), 3);
     for word in words.iter().chain(&["l.wgsl"]) {
