@@ -26,6 +26,8 @@ pub struct Camera {
 
 /// Half the height of the picture at the distance 1 from the eye: an angle of view of 30°.
 const HALF_VIEW: f64 = 0.268;
+/// Nearer to the eye than this part of its distance nothing is drawn: as in `shaders/render/frame.wgsl`.
+const NEAR: f64 = 0.05;
 /// So few particles are all in the picture, and leave trails; of more, the outermost are left to themselves.
 pub const FEW: usize = 64;
 /// The part of many particles that may lie beyond each edge before the margin is added.
@@ -58,6 +60,15 @@ impl Camera {
     #[must_use]
     pub fn wider(self, factor: f64) -> Self {
         Self { extent: self.extent * factor, distance: self.distance * factor, ..self }
+    }
+    /// Where a point is seen, to the right and up from the middle of the picture \[halves of its height\]; nothing where it is behind the
+    /// eye, or so near to it that it is not drawn.
+    #[must_use]
+    pub fn sees(&self, point: DVec3) -> Option<[f64; 2]> {
+        let r = point - self.center;
+        let nearer = if self.distance > 0.0 { 1.0 - r.dot(self.back) / self.distance } else { 1.0 };
+        let scale = 1.0 / (self.extent * nearer);
+        (nearer > NEAR && scale.is_finite()).then(|| [r.dot(self.right) * scale, r.dot(self.up) * scale])
     }
     fn reach(&mut self, extent: f64, perspective: bool) {
         self.extent = extent;
@@ -166,6 +177,21 @@ fn span(intervals: impl Iterator<Item = (f64, f64)>, outer: f64) -> (f64, f64) {
 mod tests {
     use super::*;
 
+    #[test]
+    fn points_are_seen_in_halves_of_the_height() {
+        let (center, extent) = (DVec3::new(1.0, 2.0, 3.0), 4.0);
+        let (back, right, up) = (DVec3::Y, DVec3::NEG_X, DVec3::Z);
+        let camera = |distance| Camera { center, back, right, up, extent, distance };
+        let x = center + extent * (0.5 * right - 0.25 * up);
+        for distance in [0.0, 10.0] {
+            assert_eq!(camera(distance).sees(x), Some([0.5, -0.25]));
+        }
+        assert_eq!(camera(0.0).sees(x + 100.0 * back), Some([0.5, -0.25]));
+        // Half as far from the eye it is seen twice as large, and behind it not at all.
+        assert_eq!(camera(10.0).sees(x + 5.0 * back), Some([1.0, -0.5]));
+        assert_eq!(camera(10.0).sees(x + 9.6 * back), None);
+        assert_eq!(camera(10.0).sees(x + 20.0 * back), None);
+    }
     #[test]
     fn stragglers_are_left_out_and_edges_are_not() {
         let line = |end: f64| (0..100_u32).map(|i| f64::from(i) / 99.0).chain([end]).map(|x| (x, x));

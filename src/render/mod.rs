@@ -34,6 +34,8 @@ pub use draw::{Image, draw};
 pub use exposure::Exposure;
 #[cfg(feature = "view")]
 pub use fields::PIXELS;
+#[cfg(feature = "view")]
+pub(crate) use fields::PROJECTED;
 pub use film::{Film, shoot};
 pub use fluid::Water;
 pub use frame::Frame;

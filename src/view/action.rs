@@ -33,6 +33,14 @@ pub enum Action {
     Projection,
     /// All particles in the picture.
     Frame,
+    /// Choose the particle that is drawn at a place on the picture, or none.
+    Choose { across: f64, up: f64 },
+    /// The camera goes with the chosen particle, or no longer.
+    Follow,
+    /// Choose none.
+    LetGo,
+    /// Plot a column of the chosen particle, or no longer.
+    Plot(String),
     /// Show the panel, or hide it.
     Panel,
     /// Show the list of keys, or hide it.

@@ -1,8 +1,8 @@
 //! The panel, and the place of the picture.
 
 use egui::{
-    CentralPanel, CollapsingHeader, ComboBox, Frame, Image, Panel, PointerButton, Rect, ScrollArea, Sense, Slider, Ui,
-    Vec2, load::SizedTexture, pos2,
+    CentralPanel, CollapsingHeader, Color32, ComboBox, Frame, Image, Panel, PointerButton, Rect, ScrollArea, Sense,
+    Slider, Stroke, Ui, Vec2, load::SizedTexture, pos2,
 };
 
 use super::action::Action;
@@ -20,6 +20,8 @@ const COLUMNS: u32 = 64;
 const SIDE: u32 = 4096;
 /// The camera turns so far when one drags across the height of the picture \[radians\].
 const TURN: f64 = 3.0;
+/// The radius of the ring around a chosen particle \[points\].
+const RING: f32 = 9.0;
 /// The wheel brings the camera so much closer for each point.
 const WHEEL: f64 = 0.003;
 
@@ -72,6 +74,12 @@ fn panel<B: Backend>(view: &mut View<B>, ui: &mut Ui) {
         ui.colored_label(color, &view.message);
     }
     ui.separator();
+    if let Some(chosen) = &view.chosen {
+        let title = format!("Particle {}", chosen.id);
+        CollapsingHeader::new(title).id_salt("particle").default_open(true).show(ui, |ui| {
+            chosen.show(ui, &mut view.actions);
+        });
+    }
     CollapsingHeader::new("Picture").default_open(true).show(ui, |ui| looks(view, ui));
     forces(view, ui);
     CollapsingHeader::new("Energy").default_open(false).show(ui, |ui| view.energies.show(ui));
@@ -107,10 +115,10 @@ fn run<B: Backend>(view: &mut View<B>, ui: &mut Ui) {
             ui.monospace(value);
             ui.end_row();
         };
-        row("time", plain(digits(view.stage.time())));
+        row("time", digits(view.stage.time()));
         row("step", simulation.steps().to_string());
         row("particles", simulation.count().to_string());
-        row("time per second", format!("{} of {}", plain(digits(now)), plain(digits(asked))));
+        row("time per second", format!("{} of {}", digits(now), digits(asked)));
         if short {
             row("", "as fast as it goes".to_owned());
         }
@@ -121,8 +129,8 @@ fn run<B: Backend>(view: &mut View<B>, ui: &mut Ui) {
 }
 
 /// With four digits.
-fn digits(x: f64) -> f64 {
-    format!("{x:.3e}").parse().unwrap_or(x)
+pub fn digits(x: f64) -> String {
+    plain(format!("{x:.3e}").parse().unwrap_or(x))
 }
 
 fn looks<B: Backend>(view: &mut View<B>, ui: &mut Ui) {
@@ -183,6 +191,7 @@ fn picture<B: Backend>(view: &mut View<B>, ui: &mut Ui) {
         Image::from_texture(SizedTexture::new(id, Vec2::new(width as f32, height as f32))).uv(seen).paint_at(ui, place);
     }
     let half = f64::from(0.5 * place.height()).max(1.0);
+    mark(view, ui, place);
     let drag = response.drag_delta();
     let (across, up) = (f64::from(drag.x) / half, -f64::from(drag.y) / half);
     if drag != Vec2::ZERO {
@@ -196,6 +205,11 @@ fn picture<B: Backend>(view: &mut View<B>, ui: &mut Ui) {
     }
     if response.double_clicked() {
         view.actions.push(Action::Frame);
+    } else if response.clicked()
+        && let Some(pointer) = response.interact_pointer_pos()
+    {
+        let from = pointer - place.center();
+        view.actions.push(Action::Choose { across: f64::from(from.x) / half, up: -f64::from(from.y) / half });
     }
     if let Some(pointer) = response.hover_pos() {
         let (wheel, pinch) = ui.input(|input| (input.smooth_scroll_delta.y, input.zoom_delta()));
@@ -206,4 +220,18 @@ fn picture<B: Backend>(view: &mut View<B>, ui: &mut Ui) {
             view.actions.push(Action::Zoom { factor, across, up });
         }
     }
+}
+
+/// A ring around the chosen particle.
+#[expect(clippy::cast_possible_truncation, reason = "a place on the screen")]
+fn mark<B: Backend>(view: &View<B>, ui: &Ui, place: Rect) {
+    let position = view.chosen.as_ref().and_then(|chosen| chosen.position);
+    let seen = position.and_then(|x| view.stage.picture().frame.camera.sees(x));
+    let Some([across, up]) = seen else { return };
+    let half = 0.5 * place.height();
+    let at = place.center() + Vec2::new(across as f32 * half, -up as f32 * half);
+    let painter = ui.painter_at(place);
+    // Light on dark, and dark on light.
+    painter.circle_stroke(at, RING + 1.5, Stroke::new(1.5, Color32::from_black_alpha(180)));
+    painter.circle_stroke(at, RING, Stroke::new(1.5, Color32::from_rgb(255, 214, 90)));
 }

@@ -4,36 +4,28 @@ use std::collections::VecDeque;
 
 use egui::Ui;
 use egui_plot::{Legend, Line, Plot};
-use web_time::{Duration, Instant};
 
+use super::controls::digits;
+use super::seldom::Seldom;
 use crate::error::Error;
 use crate::measure::Energy;
-use crate::settings::plain;
 use crate::state::State;
 
 /// Measurements that are kept.
 const KEPT: usize = 1024;
-/// The least time between two, and the least part of all time that passes without one.
-const APART: Duration = Duration::from_millis(200);
-const REST: u32 = 20;
 
 /// Measured energies.
 #[derive(Default)]
 pub struct Energies {
     rows: VecDeque<Energy>,
     first: Option<Energy>,
-    last: Option<(Instant, Duration)>,
-    begun: Option<Instant>,
+    times: Seldom,
 }
 
 impl Energies {
-    /// Whether it is time for the next one. Reading a state of many particles takes long, and is done seldom.
+    /// Whether it is time for the next one.
     pub fn is_due(&mut self) -> bool {
-        let due = self.last.is_none_or(|(at, took)| at.elapsed() > APART.max(took * REST));
-        if due {
-            self.begun = Some(Instant::now());
-        }
-        due
+        self.times.is_due()
     }
     /// Measures a state, which was read since it was due.
     pub fn take(&mut self, snapshot: &State) -> Result<(), Error> {
@@ -43,8 +35,7 @@ impl Energies {
             self.rows.pop_front();
         }
         self.rows.push_back(row);
-        let took = self.begun.take().map_or(Duration::ZERO, |begun| begun.elapsed());
-        self.last = Some((Instant::now(), took));
+        self.times.done();
         Ok(())
     }
     /// Plots them.
@@ -68,11 +59,6 @@ impl Energies {
         } else {
             String::new()
         };
-        ui.label(format!("total {}, changed by {}{part}", plain(rounded(last.total())), plain(rounded(change))));
+        ui.label(format!("total {}, changed by {}{part}", digits(last.total()), digits(change)));
     }
-}
-
-/// With four digits.
-fn rounded(x: f64) -> f64 {
-    format!("{x:.3e}").parse().unwrap_or(x)
 }

@@ -19,6 +19,9 @@ pub const KEYS: &[(&str, &str)] = &[
     ("P", "save a picture"),
     ("H", "hide the panel"),
     ("?", "this list"),
+    ("click", "choose a particle"),
+    ("T", "the camera goes with it, or no longer"),
+    ("Esc", "choose none"),
     ("drag", "turn; with the right button or Shift: shift"),
     ("wheel", "closer, farther, at the pointer"),
 ];
@@ -56,6 +59,8 @@ pub fn read(context: &Context, actions: &mut Vec<Action>) {
         on(Key::CloseBracket, Action::Faster(2.0));
         on(Key::F, Action::Frame);
         on(Key::O, Action::Projection);
+        on(Key::T, Action::Follow);
+        on(Key::Escape, Action::LetGo);
         for key in [Key::Plus, Key::Equals] {
             on(key, Action::Zoom { factor: CLOSER, across: 0.0, up: 0.0 });
         }

@@ -1,23 +1,27 @@
 //! A simulation that one watches and changes while it runs. It knows no window: a shell gives it input, and paints what it makes.
 
 mod action;
+mod chosen;
 mod controls;
 mod energies;
 mod keyboard;
 mod orbit;
 mod pace;
+mod seldom;
 mod sliders;
 mod stage;
 
 use egui::{TextureId, Ui};
+use glam::DVec3;
 use web_time::Instant;
 
 use crate::error::Error;
 use crate::kernel::{Array, Backend, Element as _, Field};
-use crate::render::{Image, PIXELS};
+use crate::render::{Camera, Image, PIXELS};
 use crate::scene::Scene;
 use crate::simulation::{Setup, Simulation};
 use action::Action;
+use chosen::Chosen;
 use energies::Energies;
 use pace::Pace;
 use stage::Stage;
@@ -41,6 +45,7 @@ pub struct View<B: Backend> {
     stage: Stage<B>,
     pace: Pace,
     energies: Energies,
+    chosen: Option<Chosen>,
     paused: bool,
     /// Whether the panel is shown, and the list of keys.
     panel: bool,
@@ -71,6 +76,7 @@ impl<B: Backend> View<B> {
             pace: Pace::new(stage.dt()),
             stage,
             energies: Energies::default(),
+            chosen: None,
             paused: false,
             panel: true,
             help: false,
@@ -137,6 +143,11 @@ impl<B: Backend> View<B> {
     pub fn say(&mut self, text: impl Into<String>) {
         self.message = text.into();
     }
+    /// The id of the particle that was chosen, and where it is, if one was.
+    #[must_use]
+    pub fn chosen(&self) -> Option<(u32, Option<DVec3>)> {
+        self.chosen.as_ref().map(|chosen| (chosen.id, chosen.position))
+    }
     /// The controls and the picture, and what the user asks for.
     pub fn controls(&mut self, ui: &mut Ui) {
         keyboard::read(ui.ctx(), &mut self.actions);
@@ -159,10 +170,33 @@ impl<B: Backend> View<B> {
                 self.refuse(error)?;
             }
         }
+        self.find().await?;
         let begun = Instant::now();
         self.stage.draw(self.size, self.paused).await?;
         self.pace.drawn(begun.elapsed());
         self.shown = true;
+        Ok(())
+    }
+    /// Finds the chosen particle again, and goes with it.
+    async fn find(&mut self) -> Result<(), Error> {
+        let Some(chosen) = &mut self.chosen else { return Ok(()) };
+        let time = self.stage.time();
+        if !chosen.update(&mut self.stage.simulation, time).await? {
+            self.message = format!("particle {} has left the simulation", chosen.id);
+            self.chosen = None;
+            return Ok(());
+        }
+        if let (true, Some(center)) = (chosen.follow, chosen.position) {
+            self.stage.camera(|camera| Camera { center, ..camera });
+        }
+        Ok(())
+    }
+    async fn choose(&mut self, across: f64, up: f64) -> Result<(), Error> {
+        let place = self.stage.found(across, up).await?;
+        self.chosen = match place {
+            Some(place) => Chosen::at(&mut self.stage.simulation, place).await?,
+            None => None,
+        };
         Ok(())
     }
     async fn step(&mut self, steps: u32) -> Result<(), Error> {
@@ -213,6 +247,18 @@ impl<B: Backend> View<B> {
             Action::From { back, up } => self.stage.camera(|camera| orbit::from(camera, back, up)),
             Action::Projection => self.stage.camera(orbit::other_projection),
             Action::Frame => self.stage.frame().await?,
+            Action::Choose { across, up } => self.choose(across, up).await?,
+            Action::Follow => {
+                if let Some(chosen) = &mut self.chosen {
+                    chosen.follow = !chosen.follow;
+                }
+            }
+            Action::LetGo => self.chosen = None,
+            Action::Plot(column) => {
+                if let Some(chosen) = &mut self.chosen {
+                    chosen.plot(column);
+                }
+            }
             Action::Panel => self.panel = !self.panel,
             Action::Help => self.help = !self.help,
             Action::Take => {
@@ -225,6 +271,7 @@ impl<B: Backend> View<B> {
     }
     fn restarted(&mut self) {
         self.energies = Energies::default();
+        self.chosen.iter_mut().for_each(Chosen::restarted);
         self.message.clear();
         self.faulty = false;
     }

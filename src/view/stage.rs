@@ -1,16 +1,19 @@
 //! The simulation that is watched, and its picture.
 
-use glam::DVec3;
+use glam::{DVec2, DVec3, DVec4};
 
 use super::Make;
 use crate::error::Error;
-use crate::kernel::{Backend, POSITION};
-use crate::render::{Camera, Image, Live, Picture, Trail};
+use crate::kernel::{Array, Backend, POSITION};
+use crate::render::{Camera, Image, Live, PROJECTED, Picture, Trail};
 use crate::run::Pictures;
 use crate::scene::Scene;
 use crate::settings::Value;
 use crate::simulation::{Setup, Simulation};
 use crate::state::State;
+
+/// How far from a small particle one may point at it, as a part of the height of the picture.
+const NEAR: f64 = 0.012;
 
 /// A simulation with its picture.
 pub struct Stage<B: Backend> {
@@ -111,6 +114,25 @@ impl<B: Backend> Stage<B> {
     async fn compose_anew(&mut self) -> Result<(), Error> {
         self.framed = self.simulation.snapshot().await?;
         self.compose()
+    }
+    /// Where in the columns the values of the particle lie that the last picture shows at a place \[halves of its height, to the right and up from
+    /// its middle\]: of those whose ball covers it the foremost, otherwise the nearest of the small ones that are a few pixels away.
+    pub async fn found(&mut self, across: f64, up: f64) -> Result<Option<usize>, Error> {
+        let frame = &self.live.picture.frame;
+        let (width, height) = (f64::from(frame.width), f64::from(frame.height));
+        let at = 0.5 * DVec2::new(width + across * height, height - up * height);
+        let (near, count) = (NEAR * height, frame.count as usize);
+        let Array::Vec4(drawn) =
+            self.simulation.backend().read(PROJECTED.name, &Array::Vec4(Vec::new()), count).await?
+        else {
+            return Ok(None);
+        };
+        let drawn = drawn.iter().enumerate().filter(|(_, x)| x.w >= 0.0);
+        let away = |x: &DVec4| at.distance(x.truncate().truncate());
+        let ball = drawn.clone().filter(|(_, x)| away(x) <= x.w).min_by(|a, b| a.1.z.total_cmp(&b.1.z));
+        let small =
+            || drawn.clone().filter(|(_, x)| away(x) <= x.w + near).min_by(|a, b| away(a.1).total_cmp(&away(b.1)));
+        Ok(ball.or_else(small).map(|(place, _)| place))
     }
     /// Changes a key of the picture.
     pub async fn look(&mut self, key: &'static str, value: Value) -> Result<(), Error> {

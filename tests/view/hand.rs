@@ -5,6 +5,7 @@ use egui::{
     Context, Event, Key, Modifiers, MouseWheelSource, MouseWheelUnit, PointerButton, Pos2, RawInput, Rect, TouchPhase,
     Vec2,
 };
+use glam::DVec3;
 use motes::scene::{Options, Scene, Source};
 use motes::settings::Value;
 use motes::view::View;
@@ -138,6 +139,10 @@ impl Hand {
         let settings = self.view.simulation().settings();
         let (_, settings) = settings.iter().find(|(known, _)| known == force).expect("a force");
         settings.iter().find(|setting| setting.name == name).expect("a setting").value.clone()
+    }
+    /// The id of the chosen particle, and where it is.
+    pub fn chosen(&self) -> Option<(u32, DVec3)> {
+        self.view.chosen().map(|(id, x)| (id, x.expect("a place")))
     }
     pub fn positions(&mut self) -> Vec<[u32; 4]> {
         let positions = block_on(self.view.simulation().read(POSITION)).expect("positions");

@@ -5,6 +5,7 @@ mod hand;
 use std::process::Command;
 
 use egui::{Key, Modifiers, PointerButton, Pos2, Vec2};
+use glam::Vec3;
 use hand::Hand;
 use motes::settings::Value;
 
@@ -134,4 +135,81 @@ fn what_kernels_depend_on_is_compiled_anew_and_said() {
     let steps = hand.steps();
     hand.frames(2);
     assert_eq!(hand.steps(), steps + 2, "the run goes on where it was");
+}
+
+/// The places of the brightest spots of a picture, in points of the window: pixels beyond it are cut off, as many at both sides.
+fn spots(rgba: &[u8], width: usize, (shown, apart): (f32, f32), count: usize) -> Vec<Pos2> {
+    let bright = |pixel: &[u8]| pixel[..3].iter().map(|part| u32::from(*part)).sum::<u32>();
+    let mut left: Vec<(u32, Vec2)> = rgba
+        .chunks_exact(4)
+        .enumerate()
+        .map(|(n, pixel)| (bright(pixel), Vec2::new((n % width) as f32 + 0.5, (n / width) as f32 + 0.5)))
+        .filter(|(light, _)| *light > 90)
+        .collect();
+    let cut = 0.5 * (width as f32 - shown);
+    (0..count)
+        .map(|_| {
+            let (_, at) = *left.iter().max_by_key(|(light, _)| *light).expect("a spot");
+            left.retain(|(_, x)| (*x - at).length() > apart);
+            at.to_pos2() - Vec2::new(cut, 0.0)
+        })
+        .collect()
+}
+
+#[test]
+fn a_click_chooses_what_is_drawn_there_and_the_camera_goes_with_it() {
+    let particles = ["particles.0.count=3", "particles.0.seed=4"];
+    let mut hand = Hand::on("plummer", &particles);
+    hand.key(Key::Space, Modifiers::NONE);
+    hand.key(Key::H, Modifiers::NONE);
+    hand.frames(4);
+    let width = hand.size()[0] as usize;
+    let seen = spots(&hand.picture(), width, (820.0, 60.0), 3);
+    let mut found = Vec::new();
+    for at in &seen {
+        hand.click(*at);
+        // A second click that follows at once is a double one.
+        hand.frames(40);
+        let (id, x) = hand.chosen().unwrap_or_else(|| panic!("nothing is chosen at {at:?} of {seen:?}"));
+        let [a, b, c, _] = hand.positions()[id as usize].map(f32::from_bits);
+        assert_eq!(Vec3::new(a, b, c).as_dvec3(), x, "particle {id} is elsewhere");
+        found.push(id);
+    }
+    found.sort_unstable();
+    assert_eq!(found, [0, 1, 2], "three spots are three particles");
+    // The camera goes with the last one: it stays in the middle while it moves.
+    let (id, start) = hand.chosen().expect("the last one");
+    hand.key(Key::T, Modifiers::NONE);
+    hand.key(Key::Space, Modifiers::NONE);
+    hand.frames(10);
+    let (still, now) = hand.chosen().expect("the same one");
+    assert!(id == still && now != start, "particle {id} rests");
+    let middle = Pos2::new(410.0, 600.0);
+    let nearest = |hand: &mut Hand| {
+        let spots = spots(&hand.picture(), width, (820.0, 20.0), 6);
+        spots.iter().map(|at| (*at - middle).length()).fold(f32::INFINITY, f32::min)
+    };
+    // Its highlight is beside its middle, and the others are farther away.
+    assert!(nearest(&mut hand) < 12.0, "it left the middle by {} points", nearest(&mut hand));
+    // The panel lists its columns, and plots the one that is clicked.
+    hand.key(Key::Space, Modifiers::NONE);
+    hand.key(Key::H, Modifiers::NONE);
+    hand.frames(20);
+    let (place, below) = (hand.place("velocity"), hand.place("Picture"));
+    assert!(hand.place(&format!("Particle {id}")).y < place.y && place.y < below.y);
+    hand.click(place);
+    hand.frames(20);
+    assert!(hand.place("Picture").y > below.y + 100.0, "nothing is plotted");
+    hand.key(Key::Escape, Modifiers::NONE);
+    assert_eq!(hand.chosen(), None);
+    // Where nothing is drawn nothing is chosen.
+    hand.key(Key::H, Modifiers::NONE);
+    hand.frames(3);
+    let spots = spots(&hand.picture(), width, (820.0, 60.0), 3);
+    let empty = [Pos2::new(20.0, 20.0), Pos2::new(790.0, 20.0), Pos2::new(20.0, 1180.0)];
+    let empty =
+        empty.iter().find(|at| spots.iter().all(|spot| (**at - *spot).length() > 100.0)).expect("an empty corner");
+    hand.click(*empty);
+    hand.frames(2);
+    assert_eq!(hand.chosen(), None);
 }
