@@ -150,7 +150,11 @@ impl Component for Fluid {
         if matches!(self.continuity(), Ok(Some(_))) {
             return sph::continuity_columns(self.0.number("density"));
         }
-        if self.solves() { sph::dfsph_columns() } else { Vec::new() }
+        let mut all = sph::summed();
+        if self.solves() {
+            all.extend(sph::dfsph_columns());
+        }
+        all
     }
     fn properties(&self) -> Properties {
         let on = |name| self.0.number(name) > 0.0;

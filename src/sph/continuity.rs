@@ -21,11 +21,20 @@ pub struct Continuity {
 #[must_use]
 pub fn columns(rest: f64) -> Vec<Column> {
     vec![
-        Column::new("density", Kind::Scalar, "mass / length³", "the density of the fluid; undefined for walls")
-            .carried("density_rate")
-            .starting([rest, 0.0, 0.0, 0.0]),
+        density().carried("density_rate").starting([rest, 0.0, 0.0, 0.0]),
         Column::new("density_rate", Kind::Scalar, "mass / (length³ time)", "how fast that changes").derived(),
     ]
+}
+
+/// The density: computed anew in each evaluation, unless integrators advance it.
+fn density() -> Column {
+    Column::new("density", Kind::Scalar, "mass / length³", "the density of the fluid; undefined for walls")
+}
+
+/// The columns of a density that is a sum over neighbours.
+#[must_use]
+pub fn summed() -> Vec<Column> {
+    vec![density().derived()]
 }
 
 /// The law that computes the rate of the density, at the current positions and velocities.

@@ -20,7 +20,7 @@ mod wall_pressure;
 mod walls;
 mod xsph;
 
-pub use continuity::{Continuity, columns as continuity_columns, rate};
+pub use continuity::{Continuity, columns as continuity_columns, rate, summed};
 pub use density::density;
 pub use dfsph::{Asked, DFSPH_ERRORS, DFSPH_REPORT, DFSPH_WORDS, Dfsph, columns as dfsph_columns};
 pub use gap::gap;

@@ -109,6 +109,27 @@ fn energy_is_kept_without_walls_and_friction() {
     assert!(coarse < 1e-3 && (3.0..5.0).contains(&(coarse / fine)), "{coarse:e}, then {fine:e}");
 }
 
+/// However it is computed, it is a column, which files and programs have by its name; between steps it is that of the positions.
+#[test]
+fn the_density_is_a_column() {
+    let shared = support::device();
+    let particles = cloud(700, false, true);
+    for more in [vec![], vec![("density_by", word("continuity"))], vec![("solver", word("dfsph"))]] {
+        let setup = setup(&particles, vec![fluid(&more)], "leapfrog", 0.002, bounds(700, false, Side::Periodic));
+        let mut simulation = gpu(&shared, &setup);
+        simulation.step(5).expect("steps");
+        let field = pollster::block_on(simulation.read(DENSITY)).expect("a field");
+        let column = pollster::block_on(simulation.read_column("density")).expect("a column");
+        let Array::Float(column) = column else { panic!("{column:?}") };
+        let bits = |x: f64| (x as f32).to_bits();
+        assert_eq!(column.len(), particles.len());
+        assert!(column.iter().zip(&field).all(|(x, y)| bits(*x) == y.to_bits()), "{more:?}");
+        let mean = column.iter().sum::<f64>() / column.len() as f64;
+        assert!((mean / DENSITY_AT_REST - 1.0).abs() < 0.2, "{more:?}: {mean}");
+        assert!(column.iter().any(|x| bits(*x) != bits(column[0])), "{more:?}: nothing computed it");
+    }
+}
+
 #[test]
 fn the_same_run_twice_gives_the_same_bits() {
     let shared = support::device();
