@@ -75,8 +75,9 @@ fn control(ui: &mut Ui, now: &Setting<'_>, scene: &Value, label: &egui::Response
                 slider = slider.logarithmic(true).smallest_positive(high / REACH.powi(3));
             }
             let response = ui.add(slider).labelled_by(label.id);
-            // What was dragged beyond what is accepted ends there.
-            let value = if kind.outside(value).is_some() { value.clamp(low, high) } else { value };
+            // What is dragged beyond what is accepted stays there; what is typed is refused in words.
+            let beyond = response.dragged() && kind.outside(value).is_some();
+            let value = if beyond { value.clamp(low, high) } else { value };
             response.changed().then_some(Value::Number(value))
         }
         (Kind::Choice(known), Value::Text(word), _) => {

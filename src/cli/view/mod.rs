@@ -1,6 +1,8 @@
 //! `motes view`
 
 #[cfg(feature = "view")]
+mod files;
+#[cfg(feature = "view")]
 mod sheet;
 #[cfg(feature = "view")]
 mod window;

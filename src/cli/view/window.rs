@@ -1,8 +1,8 @@
 //! The window.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::sync::Arc;
-use std::time::{Duration, Instant, SystemTime};
+use std::time::{Instant, SystemTime};
 
 use egui::{Context, ViewportId};
 use egui_winit::winit;
@@ -18,9 +18,7 @@ use winit::window::{Window, WindowId};
 
 use super::super::args::ViewArgs;
 use super::super::failure::Failure;
-
-/// The interval at which files of the scene are looked at.
-const LOOK: Duration = Duration::from_millis(250);
+use super::files::{Files, LOOK};
 
 /// Opens the window, and returns when it is closed.
 pub fn run(args: &ViewArgs) -> Result<(), Failure> {
@@ -98,6 +96,7 @@ struct Shell {
 impl Shell {
     fn open(events: &ActiveEventLoop, args: &ViewArgs) -> Result<Self, Failure> {
         let refused = |error: &dyn std::fmt::Display| Error::NoAdapter(format!("no window can be opened: {error}"));
+        let begun = SystemTime::now();
         let loaded = block_on(super::load(args, None))?;
         let [width, height] = args.size;
         let attributes = Window::default_attributes()
@@ -108,13 +107,14 @@ impl Shell {
         let (surface, found) = block_on(Surface::open(window.clone(), window.inner_size().into(), &choice))?;
         let context = Context::default();
         let input = egui_winit::State::new(context.clone(), ViewportId::ROOT, &window, None, window.theme(), None);
-        let files = Files::of(&loaded.scene.files, &args.scene);
+        let files = Files::of(&loaded.scene.files, &args.scene, begun);
         let view = block_on(View::new(&loaded.scene, loaded.setup, make(&found)))?;
         window.request_redraw();
         Ok(Self { window, surface, found, context, input, view, files, frames: 0 })
     }
     /// Opens another scene. Where it has faults, the present one goes on, and they are said.
     fn open_scene(&mut self, args: &ViewArgs, name: &str) {
+        let begun = SystemTime::now();
         let opened = block_on(async {
             let loaded = super::load(args, Some(name)).await?;
             let (files, title) = (loaded.scene.files.clone(), loaded.scene.name.clone());
@@ -124,7 +124,7 @@ impl Shell {
         match opened {
             Ok((view, files, title)) => {
                 self.view = view;
-                self.files = Files::of(&files, name);
+                self.files = Files::of(&files, name, begun);
                 self.window.set_title(&format!("motes: {title}"));
             }
             Err(failure) => {
@@ -183,41 +183,4 @@ fn save(taken: &Taken) -> Result<PathBuf, Error> {
     let file = names.map(PathBuf::from).find(|name| !name.exists()).unwrap_or_default();
     taken.image.save(&file)?;
     Ok(file)
-}
-
-/// The files of a scene, and when they were written last.
-struct Files {
-    /// The name by which the scene is opened again.
-    scene: String,
-    written: Vec<(PathBuf, Option<SystemTime>)>,
-    looked: Instant,
-}
-
-impl Files {
-    fn of(files: &[PathBuf], scene: &str) -> Self {
-        let written = files.iter().map(|file| (file.clone(), modified(file))).collect();
-        Self { scene: scene.to_owned(), written, looked: Instant::now() }
-    }
-    /// Whether one of them was written since it was last seen, and is at rest.
-    fn changed(&mut self) -> bool {
-        if self.looked.elapsed() < LOOK {
-            return false;
-        }
-        self.looked = Instant::now();
-        let resting = |time: SystemTime| time.elapsed().is_ok_and(|since| since > LOOK / 2);
-        self.written.iter().any(|(file, time)| {
-            let now = modified(file);
-            now != *time && now.is_some_and(resting)
-        })
-    }
-    /// Takes them as they are.
-    fn seen(&mut self) {
-        for (file, time) in &mut self.written {
-            *time = modified(file);
-        }
-    }
-}
-
-fn modified(file: &Path) -> Option<SystemTime> {
-    std::fs::metadata(file).and_then(|data| data.modified()).ok()
 }
