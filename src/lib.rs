@@ -49,6 +49,9 @@ pub mod crowds;
 pub mod diagnose;
 #[doc(hidden)]
 pub mod error;
+#[cfg(feature = "scene")]
+#[doc(hidden)]
+pub mod evacuation;
 #[cfg(doc)]
 pub mod examples;
 #[doc(hidden)]

@@ -183,7 +183,7 @@ const ORDER: [&str; 41] = [
     "selftest",
     "scene",
     "run",
-    "view",
+    "evacuation",
     "cli",
     "examples",
 ];

@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 
+use super::crowds::args::CrowdsArgs;
 use clap::{Args as ClapArgs, Parser, Subcommand, ValueEnum};
 
 const AFTER: &str = "\
@@ -50,6 +51,8 @@ pub enum Command {
     Compare(CompareArgs),
     /// Run a scene for all combinations of some values, and tabulate and plot the results
     Sweep(SweepArgs),
+    /// Run pedestrians out of a floor plan, and report how long they need and where the bottlenecks are
+    Crowds(CrowdsArgs),
     /// List the scenes that come with motes, or print one
     Scenes(ScenesArgs),
     /// Convert a file of particles to another format, chosen by the extension of the new file
@@ -379,7 +382,7 @@ pub struct ValidateArgs {
     pub device: DeviceArgs,
 }
 
-fn positive(text: &str) -> Result<f64, String> {
+pub fn positive(text: &str) -> Result<f64, String> {
     match text.parse::<f64>() {
         Ok(x) if x > 0.0 && x < 1e6 => Ok(x),
         _ => Err("it must be a number above 0 and below 1e6".to_owned()),

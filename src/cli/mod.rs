@@ -23,6 +23,7 @@ mod compare;
 mod conclude;
 mod convert;
 mod course;
+mod crowds;
 mod doctor;
 mod engine;
 mod explain;
@@ -91,6 +92,7 @@ async fn dispatch(command: Command) -> Result<(), Failure> {
         Command::Check(args) => check::check(&args).await,
         Command::Explain(args) => explain::explain(&args).await,
         Command::Compare(args) => compare::compare(&args).await,
+        Command::Crowds(args) => crowds::crowds(&args).await,
         Command::Scenes(args) => scenes::scenes(&args),
         Command::Convert(args) => convert::convert(&args),
         Command::Info(args) => info::info(&args),

@@ -14,6 +14,7 @@ mod cli;
 mod components;
 mod convert;
 mod cpu_backend;
+mod crowds;
 mod far;
 mod film;
 mod json;

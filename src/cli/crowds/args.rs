@@ -1,0 +1,54 @@
+//! Arguments of `motes crowds`.
+
+use std::path::PathBuf;
+
+use clap::Args as ClapArgs;
+
+use crate::cli::args::{DeviceArgs, ShowArgs, StopArgs, positive};
+
+#[derive(Debug, Clone, ClapArgs)]
+pub struct CrowdsArgs {
+    /// The floor plan: polygons and lines of exits as well-known text (WKT), in metres
+    pub plan: PathBuf,
+    /// The number of pedestrians
+    #[arg(long, value_name = "N", default_value_t = 300, value_parser = clap::value_parser!(u32).range(1..=100_000))]
+    pub people: u32,
+    /// The seed of their places, radii and desired speeds
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    pub seed: u64,
+    /// The mean of desired speeds [m/s]; they are normal, between 0.37 and 1.64 of it
+    #[arg(long, value_name = "V", default_value_t = 1.34, value_parser = positive)]
+    pub speed: f64,
+    /// A rectangle in which they start, by two corners [m]; may be repeated [default: the whole floor]
+    #[arg(long, value_name = "X,Y,X,Y", value_parser = rectangle, allow_hyphen_values = true)]
+    pub start: Vec<[f64; 4]>,
+    /// Names of the exits, in their order in the plan
+    #[arg(long, value_name = "NAMES", value_delimiter = ',')]
+    pub exits: Vec<String>,
+    /// The side of the cells on which ways are found [m]
+    #[arg(long, value_name = "M", default_value_t = 0.1, value_parser = positive)]
+    pub cell: f64,
+    /// End after this time, also if some are still inside [s]
+    #[arg(long, value_name = "S", default_value_t = 1200.0, value_parser = positive)]
+    pub limit: f64,
+    /// The folder for the report, pictures, ways and the scene [default: out/NAME]
+    #[arg(short, long, value_name = "DIR")]
+    pub output: Option<PathBuf>,
+    /// Replace the report of an earlier run in the folder
+    #[arg(long)]
+    pub overwrite: bool,
+    #[command(flatten)]
+    pub device: DeviceArgs,
+    #[command(flatten)]
+    pub stop: StopArgs,
+    #[command(flatten)]
+    pub show: ShowArgs,
+}
+
+/// Two corners.
+fn rectangle(text: &str) -> Result<[f64; 4], String> {
+    let numbers: Vec<f64> = text.split(',').filter_map(|word| word.trim().parse().ok()).collect();
+    let four = <[f64; 4]>::try_from(numbers).ok().filter(|all| all.iter().all(|x| x.is_finite()));
+    let four = four.filter(|[a, b, c, d]| (a - c).abs() > 0.0 && (b - d).abs() > 0.0 && text.split(',').count() == 4);
+    four.ok_or_else(|| "it must be two corners of a rectangle, as in 0,0,15,8.5".to_owned())
+}

@@ -1,0 +1,48 @@
+//! The plan of an evacuation, from a file.
+
+use motes::Error;
+use motes::evacuation;
+use motes::floor_plan::{Exit, FloorPlan};
+use motes::formats::floor_plan;
+
+use super::args::CrowdsArgs;
+
+/// The longest file that is read \[bytes\].
+const LONGEST: u64 = 16 << 20;
+/// The distance from the line of an exit at which a pedestrian has left \[m\], as of `[plan]`.
+const REACH: f64 = 0.25;
+
+/// A plan, and its text for a scene.
+pub struct Read {
+    pub plan: FloorPlan,
+    pub wkt: String,
+}
+
+/// Reads the plan of the arguments.
+pub fn read(args: &CrowdsArgs) -> Result<Read, Error> {
+    let bad = |message: String| Error::Input { file: args.plan.clone(), message };
+    let length = std::fs::metadata(&args.plan).map_err(|why| bad(why.to_string()))?.len();
+    if length > LONGEST {
+        return Err(bad(format!("{length} bytes are more than the {LONGEST} that a floor plan may have")));
+    }
+    let bytes = std::fs::read(&args.plan).map_err(|why| bad(why.to_string()))?;
+    let wkt = String::from_utf8(bytes).map_err(|_| bad("it is no text: a plan is well-known text (WKT)".to_owned()))?;
+    let drawn = floor_plan::read(&wkt).map_err(bad)?;
+    let count = drawn.exits.len();
+    if !(args.exits.is_empty() || args.exits.len() == count) {
+        let given = args.exits.len();
+        return Err(bad(format!("--exits has {given} names, and the plan has {count} exits: a name for each")));
+    }
+    if count == 0 {
+        return Err(bad("the plan has no exit, so that no way leads out: add a LINESTRING on its floor".to_owned()));
+    }
+    let named = |(path, number): (_, usize)| Exit {
+        name: args.exits.get(number - 1).cloned().unwrap_or_else(|| format!("exit {number}")),
+        path,
+        reach: REACH,
+    };
+    let exits: Vec<Exit> = drawn.exits.into_iter().zip(1..).map(named).collect();
+    let wkt = evacuation::text(&drawn.polygons, &exits);
+    let plan = FloorPlan::new(&drawn.polygons, exits, args.cell).map_err(bad)?;
+    Ok(Read { plan, wkt })
+}

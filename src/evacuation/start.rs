@@ -1,0 +1,151 @@
+//! The scene of an evacuation: pedestrians at random on the floor of a plan.
+
+use std::fmt::Write as _;
+
+use glam::DVec2;
+
+use crate::crowds::{DECAY, FRICTION, Press, REPULSION, STIFFNESS};
+use crate::error::Error;
+use crate::floor_plan::FloorPlan;
+use crate::settings::Settings;
+use crate::shapes::random::Random;
+
+/// Places tried for one pedestrian, as of the shape `crowd`.
+const TRIES: u32 = 20_000;
+/// Radii are uniform between these \[m\], as of the shape `crowd`.
+const RADII: [f64; 2] = [0.25, 0.35];
+/// Deviation, minimum and maximum of desired speeds as parts of their mean (Weidmann 1993: 0.26, 0.5 and 2.2 of 1.34 m/s).
+const SPREAD: [f64; 3] = [0.26 / 1.34, 0.5 / 1.34, 2.2 / 1.34];
+/// The mass of each pedestrian \[kg\].
+const MASS: f64 = 80.0;
+/// The fluctuations of velocities, σ √(τ / 2) = 0.2 m/s in the mean square \[m/s^(3/2)\]: without them two may block each other before a door for ever.
+const WANDER: f64 = 0.4;
+/// The interval between samples \[s\].
+const SAMPLE: f64 = 0.25;
+/// The largest step that friction between the fastest allows is divided by this.
+const SAFE: f64 = 0.97;
+
+/// The pedestrians of an evacuation.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Crowd {
+    /// The number.
+    pub people: u32,
+    /// The seed of places, radii and speeds.
+    pub seed: u64,
+    /// The mean of desired speeds \[m/s\].
+    pub speed: f64,
+    /// The rectangles that they start in, each by two corners; none: the whole floor \[m\].
+    pub within: Vec<[DVec2; 2]>,
+}
+
+/// A scene of a crowd.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Start {
+    /// The text of the scene.
+    pub text: String,
+    /// The steps between two samples.
+    pub every: u32,
+    /// The time at which it ends \[s\].
+    pub limit: f64,
+}
+
+impl Start {
+    /// The same scene with another end \[s\].
+    #[must_use]
+    pub fn until(&self, time: f64) -> String {
+        self.text.replacen(&format!("\nuntil = {:?}\n", self.limit), &format!("\nuntil = {time:?}\n"), 1)
+    }
+}
+
+/// The scene of a crowd on a plan, whose text as WKT and whose names of exits are given, for `limit` seconds at most.
+///
+/// # Errors
+/// [`Error::Scene`] where there is no room for so many.
+pub fn scene(plan: &FloorPlan, (wkt, about): (&str, &str), crowd: &Crowd, limit: f64) -> Result<Start, Error> {
+    let bodies = bodies(plan, crowd)?;
+    // The overlap g of two that meet head on at the largest speed: 2 κ g / m times dt is 1 at most.
+    let fastest = SPREAD[2] * crowd.speed;
+    let press = Press::of(&Settings::defaults(&[REPULSION, DECAY, STIFFNESS, FRICTION]));
+    let overlap = fastest * (2.0 * MASS / press.stiffness).sqrt();
+    let longest = SAFE * 0.5 * MASS / (press.friction * overlap);
+    let parts = (SAMPLE / longest).ceil().max(1.0);
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a number of steps")]
+    let every = parts as u32;
+    let (low, high) = plan.extent();
+    let (size, low) = (high - low + 2.0, low - 1.0);
+    let names: Vec<String> = plan.exits().iter().map(|exit| format!("{:?}", exit.name)).collect();
+    let (reach, cell) = (plan.exits().first().map_or(0.25, |exit| exit.reach), plan.cell());
+    let (dt, extent, middle) = (SAMPLE / parts, 0.5 * size.y, low + 0.5 * size);
+    let height = (960.0 * size.y / size.x).clamp(240.0, 1920.0).round();
+    let comment = format!("# {}\n", about.replace('\n', "\n# "));
+    let text = format!(
+        "{comment}\n[simulation]\ndt = {dt:?}\nuntil = {limit:?}\nintegrator = \"leapfrog\"\n\n[box]\nsize = [{:?}, {:?}, 0]\nlow = [{:?}, {:?}, 0]\nboundary = \"open\"\n\n\
+         [plan]\ncell = {cell:?}\nreach = {reach:?}\nexits = [{}]\nwkt = \"\"\"\n{wkt}\n\"\"\"\n\n[[particles]]\nbodies = [\n{bodies}]\n\n[[force]]\nkind = \"navigate\"\n\n[[force]]\nkind = \"social_force\"\n\n\
+         [[force]]\nkind = \"social_wall\"\n\n[[force]]\nkind = \"wander\"\nstrength = {WANDER:?}\nseed = {}\n\n[output]\nevery = {every}\nformats = []\n\n[picture]\nwidth = 960\nheight = {height:?}\neye = [0, 0, 1]\nup = [0, 1, 0]\n\
+         projection = \"orthographic\"\nauto_frame = false\ncenter = [{:?}, {:?}, 0]\nextent = {extent:?}\ncolor = \"speed\"\n",
+        size.x,
+        size.y,
+        low.x,
+        low.y,
+        names.join(", "),
+        crowd.seed,
+        middle.x,
+        middle.y
+    );
+    Ok(Start { text, every, limit })
+}
+
+/// The pedestrians, a line each.
+fn bodies(plan: &FloorPlan, crowd: &Crowd) -> Result<String, Error> {
+    let (low, high) = plan.extent();
+    let areas = if crowd.within.is_empty() { vec![[low, high]] } else { crowd.within.clone() };
+    let areas: Vec<[DVec2; 2]> = areas.iter().map(|[a, b]| [a.min(*b).max(low), a.max(*b).min(high)]).collect();
+    let sizes: Vec<f64> = areas.iter().map(|[a, b]| (*b - *a).max(DVec2::ZERO).element_product()).collect();
+    let whole: f64 = sizes.iter().sum();
+    let (cells, mut random) = (plan.cells(), Random::new(crowd.seed));
+    let steps = cells.steps();
+    let mut placed: Vec<(DVec2, f64)> = Vec::new();
+    let mut text = String::new();
+    for i in 0..crowd.people {
+        let radius = random.between(RADII[0], RADII[1]);
+        let free = |x: DVec2| {
+            let apart = |exit: &crate::floor_plan::Exit| exit.distance(x) > exit.reach + radius;
+            placed.iter().all(|(y, other)| x.distance(*y) >= radius + other)
+                && plan.holds(x)
+                && plan.exits().iter().all(apart)
+                && cells.around(x).into_iter().any(|k| steps[k].is_some())
+                && plan.distance(x) >= radius
+        };
+        let tried = (0..TRIES).find_map(|_| {
+            let mut at = whole * random.uniform();
+            let area = areas.iter().zip(&sizes).find(|(_, size)| {
+                at -= **size;
+                at <= 0.0
+            });
+            let [a, b] = area.map_or([low, high], |(area, _)| *area);
+            let x = a + (b - a) * DVec2::new(random.uniform(), random.uniform());
+            free(x).then_some(x)
+        });
+        let Some(x) = tried else {
+            let what = if crowd.within.is_empty() { "of the floor" } else { "of the rectangles of --start" };
+            return Err(Error::Scene(format!(
+                "{} pedestrians have no room: after {i} no free place {what} with a way to an exit was found in {TRIES} tries; ask for fewer with --people{}",
+                crowd.people,
+                if crowd.within.is_empty() { ", or check the scale of the plan" } else { ", or a larger --start" }
+            )));
+        };
+        let [deviation, least, most] = SPREAD.map(|part| part * crowd.speed);
+        let mut speed = crowd.speed + deviation * random.normal();
+        while !(least..=most).contains(&speed) {
+            speed = crowd.speed + deviation * random.normal();
+        }
+        placed.push((x, radius));
+        // Writing to a String cannot fail.
+        let _ = writeln!(
+            text,
+            "  {{ position = [{:?}, {:?}, 0.0], mass = {MASS:?}, size = {radius:?}, radius = {radius:?}, desired_speed = {speed:?} }},",
+            x.x, x.y
+        );
+    }
+    Ok(text)
+}

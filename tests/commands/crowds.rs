@@ -1,0 +1,152 @@
+//! `motes crowds`: the bottleneck that a report names is the one that holds pedestrians up, and a wider or another door shows it.
+
+use std::process::Command;
+
+use serde_json::Value;
+
+fn motes(args: &[&str]) -> (i32, String, String) {
+    let output = Command::new(env!("CARGO_BIN_EXE_motes")).args(args).output().expect("the program starts");
+    let text = |bytes| String::from_utf8(bytes).expect("output is UTF-8");
+    (output.status.code().unwrap_or(-1), text(output.stdout), text(output.stderr))
+}
+
+/// Two rooms of 6 by 8 metres with a door from `low` to `high` between them, and an exit as wide as the second room.
+fn rooms([low, high]: [f64; 2]) -> String {
+    format!(
+        "GEOMETRYCOLLECTION (POLYGON ((0 0, 6 0, 6 {low}, 6.2 {low}, 6.2 0, 12 0, 12 8, 6.2 8, 6.2 {high}, 6 {high}, 6 8, 0 8, 0 0)), \
+         LINESTRING (11.5 0.2, 11.5 7.8))"
+    )
+}
+
+/// The report on a plan with 40 pedestrians in the first room.
+fn report(plan: &str, seed: u64) -> (Value, tempfile::TempDir) {
+    let folder = tempfile::tempdir().expect("a folder");
+    let (file, out) = (folder.path().join("plan.wkt"), folder.path().join("out"));
+    std::fs::write(&file, plan).expect("a plan");
+    let [file, out] = [&file, &out].map(|path| path.to_str().expect("a path of words").to_owned());
+    let seed = seed.to_string();
+    let args = [
+        "crowds",
+        &file,
+        "--people",
+        "40",
+        "--start",
+        "0,0,6,8",
+        "--seed",
+        &seed,
+        "-o",
+        &out,
+        "--json",
+        "--backend",
+        "cpu",
+    ];
+    let (code, text, words) = motes(&args);
+    assert_eq!(code, 0, "{words}");
+    (serde_json::from_str(&text).unwrap_or_else(|why| panic!("{why}: {text}")), folder)
+}
+
+fn number(value: &Value) -> f64 {
+    value.as_f64().unwrap_or_else(|| panic!("{value} is no number"))
+}
+
+/// A door of 1.2 m holds 40 pedestrians up. The report names it within half a metre, and its width within a cell; what it says is lost there is what a door
+/// of 6 m saves, within a quarter: the wide door shortens ways a little, and its own small jam is not counted. A door elsewhere moves the name.
+#[test]
+fn the_named_bottleneck_is_the_door_that_holds_pedestrians_up() {
+    for seed in [1, 2] {
+        let (narrow, _folder) = report(&rooms([3.0, 4.2]), seed);
+        let named = narrow["bottlenecks"].as_array().expect("a list");
+        assert_eq!(named.len(), 1, "{named:?}");
+        let place = |one: &Value| [&one["position"][0], &one["position"][1]].map(number);
+        let [x, y] = place(&named[0]);
+        assert!((x - 6.1).hypot(y - 3.6) < 0.5, "{x} {y}");
+        assert!((number(&named[0]["width"]) - 1.2).abs() < 0.1, "{}", named[0]);
+        assert!(named[0]["held_up"].as_u64() > Some(20) && named[0]["passed"].as_u64() == Some(40), "{}", named[0]);
+        // The map has all of the delay, up to the rounding of nine digits each.
+        let lost = &narrow["person_seconds"];
+        assert!((number(&lost["on_the_map"]) - number(&lost["lost"])).abs() < 1e-5 * number(&lost["spent"]));
+        let (wide, _folder) = report(&rooms([1.0, 7.0]), seed);
+        let of = |report: &Value, what: &str| number(&report["person_seconds"][what]);
+        let (saved, said) = (of(&narrow, "spent") - of(&wide, "spent"), number(&named[0]["lost"]));
+        assert!((saved / said - 1.0).abs() < 0.25, "saved {saved}, said {said}");
+        assert!(number(&narrow["evacuation"]["last"]) > 1.5 * number(&wide["evacuation"]["last"]));
+        let (moved, _folder) = report(&rooms([6.0, 7.2]), seed);
+        let [x, y] = place(&moved["bottlenecks"][0]);
+        assert!((x - 6.1).hypot(y - 6.6) < 0.5, "{x} {y}");
+    }
+}
+
+/// Where nothing is narrow no bottleneck is named.
+#[test]
+fn an_open_hall_has_no_bottleneck() {
+    let hall = "GEOMETRYCOLLECTION (POLYGON ((0 0, 12 0, 12 8, 0 8, 0 0)), LINESTRING (11.5 0.2, 11.5 7.8))";
+    for seed in [1, 2] {
+        let (report, _folder) = report(hall, seed);
+        assert_eq!(report["bottlenecks"], serde_json::json!([]), "seed {seed}");
+        let lost = &report["person_seconds"];
+        assert!(number(&lost["lost"]) < 0.25 * number(&lost["spent"]), "{lost}");
+    }
+}
+
+/// The scene in the folder makes the same run: the last has left at its end, and not a sample before. Two reports of the same plan are the same bytes.
+#[test]
+fn the_scene_of_a_report_makes_the_same_run() {
+    let (first, folder) = report(&rooms([3.0, 4.2]), 3);
+    let (again, other) = report(&rooms([3.0, 4.2]), 3);
+    assert_eq!(first, again);
+    let file =
+        |folder: &tempfile::TempDir, name: &str| std::fs::read(folder.path().join("out").join(name)).expect("a file");
+    for name in [
+        "report.json",
+        "report.md",
+        "scene.toml",
+        "trajectories.csv",
+        "delay.svg",
+        "density.svg",
+        "tracks.svg",
+        "left.svg",
+    ] {
+        assert_eq!(file(&folder, name), file(&other, name), "{name}");
+    }
+    let path = |name: &str| folder.path().join(name).to_str().expect("a path of words").to_owned();
+    let (code, _, words) = motes(&["run", &path("out/scene.toml"), "-o", &path("run"), "--backend", "cpu", "--quiet"]);
+    assert_eq!(code, 0, "{words}");
+    let table = std::fs::read_to_string(path("run/population.csv")).expect("a table");
+    let active = |line: &str| line.split(',').nth(3).and_then(|cell| cell.parse::<f64>().ok());
+    let inside: Vec<f64> = table.lines().skip(1).filter_map(active).collect();
+    let out: usize = first["exits"][0]["count"].as_u64().and_then(|n| usize::try_from(n).ok()).expect("a count");
+    let [first, before, last] = [inside[0], inside[inside.len() - 2], inside[inside.len() - 1]];
+    assert!(out == 40 && first > 39.5 && before > 0.5 && last < 0.5, "{inside:?}");
+}
+
+/// What cannot be is refused with the place, and a limit of time is said with those that are left.
+#[test]
+fn faults_of_plans_and_limits_are_said() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = |name: &str| folder.path().join(name).to_str().expect("a path of words").to_owned();
+    let refused = |plan: &str, more: &[&str], code: i32, why: &str| {
+        std::fs::write(path("plan.wkt"), plan).expect("a plan");
+        let (plan, out) = (path("plan.wkt"), path("out"));
+        let args = [&["crowds", &plan, "-o", &out, "--backend", "cpu", "--overwrite"], more].concat();
+        let (got, _, words) = motes(&args);
+        assert!(got == code && words.contains(why), "{got}: {words}");
+    };
+    let square = "POLYGON ((0 0, 9 0, 9 9, 0 9, 0 0))";
+    refused(square, &[], 4, "no exit");
+    refused("POLYGON ((0 0, 9 0, 9 9))", &[], 4, "not closed");
+    let plan = |exit: &str| format!("GEOMETRYCOLLECTION ({square}, LINESTRING ({exit}))");
+    refused(&plan("12 1, 12 3"), &[], 4, "not on the floor at 12 2");
+    refused(&plan("8 1, 8 3"), &["--people", "5000"], 3, "have no room");
+    refused(&plan("8 1, 8 3"), &["--start", "20,20,30,30"], 3, "have no room");
+    refused(&plan("8 1, 8 3"), &["--exits", "a,b"], 4, "has 2 names, and the plan has 1");
+    refused(&plan("8 1, 8 3"), &["--start", "1,2,3"], 2, "two corners");
+    std::fs::write(path("plan.wkt"), plan("8 1, 8 3")).expect("a plan");
+    let args = ["crowds", &path("plan.wkt"), "-o", &path("short"), "--backend", "cpu", "--people", "5", "--limit", "1"];
+    let (code, text, words) = motes(&args);
+    assert!(
+        code == 0 && text.contains("are still inside: the limit of time was reached; they are at"),
+        "{text}{words}"
+    );
+    let (code, _, words) = motes(&args);
+    assert!(code == 8 && words.contains("an earlier run"), "{words}");
+}
