@@ -1,5 +1,7 @@
 //! Distances to exits between the centres of cells, and the ways down them.
 
+use std::sync::Arc;
+
 use glam::DVec2;
 
 use crate::floor_plan::Cells;
@@ -11,14 +13,14 @@ const FAR: f64 = 1e8;
 #[derive(Debug, Clone)]
 pub struct Ways {
     /// The cells.
-    pub cells: Cells,
+    pub cells: Arc<Cells>,
     distance: Vec<f64>,
 }
 
 impl Ways {
     /// Cells with the distances that a run found (`crowds::EXIT_DISTANCE`) \[length\].
     #[must_use]
-    pub fn new(cells: Cells, distance: Vec<f64>) -> Self {
+    pub fn new(cells: Arc<Cells>, distance: Vec<f64>) -> Self {
         Self { cells, distance }
     }
     /// The distance of a cell, where it has a way \[length\].
