@@ -9,6 +9,8 @@ const OPENING: f64 = 1.0;
 
 /// No wall is nearer to the middle of a cross-section than this part of its width; half of it where walls face each other.
 const CLEAR: f64 = 0.35;
+/// But for rooms, of more than this \[length\].
+const WIDE: f64 = 2.0;
 
 /// A cross-section of a passage.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -29,7 +31,7 @@ impl Passage {
         };
         let found = Self { ends: [nearest(-left)?, nearest(left)?] };
         // Beside a corner both may be on one wall, or on two that meet there.
-        let clear = plan.distance(found.middle()) >= CLEAR * found.width() && plan.holds(found.middle());
+        let clear = plan.distance(found.middle()) >= CLEAR * found.width().min(WIDE) && plan.holds(found.middle());
         clear.then_some(found)
     }
     /// Its width: the distance between its ends \[length\].
