@@ -20,8 +20,9 @@ pub struct Passage {
 }
 
 impl Passage {
-    /// The narrowest one through a point, for motion in a direction: between the nearest points of walls to its right and to its left. None where there
-    /// is no wall at a side, or both are the same corner.
+    /// The narrowest one through a point, for motion in a direction: between the nearest points of walls within 45° of its right and of its left. None
+    /// where there is no wall at a side, or both are the same corner. Within passages that is their clear width; in rooms walls before and behind may be
+    /// nearer than those at the sides, and it is less than the width of the room.
     #[must_use]
     pub fn through(plan: &FloorPlan, x: DVec2, heading: DVec2) -> Option<Self> {
         let left = heading.perp();
@@ -113,7 +114,10 @@ mod tests {
         for y in [4.1, 4.5, 5.0] {
             assert!((width(6.01, y) - 1.2).abs() < 1e-9 && (width(5.98, y) - 1.2).abs() < 1e-3, "{}", width(5.98, y));
         }
-        assert!((width(2.0, 2.0) - 9.0).abs() < 1e-9 && width(7.0, 4.6) > 2.0);
+        // In a room the sector to the left sees the wall behind, too: from 2 0 to 0 4.
+        assert!((width(2.0, 2.0) - 20.0_f64.sqrt()).abs() < 1e-9, "{}", width(2.0, 2.0));
+        // Behind the wall by 0.98, at 45 degrees.
+        assert!((width(7.0, 4.6) - 1.96).abs() < 1e-9, "{}", width(7.0, 4.6));
         let door = Passage::through(&plan, DVec2::new(6.01, 4.5), DVec2::X).expect("a passage");
         let beside = Passage::through(&plan, DVec2::new(5.95, 3.85), DVec2::new(0.8, 0.6));
         assert!(beside.is_none_or(|one| one.width() >= 1.2), "{beside:?}");

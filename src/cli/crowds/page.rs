@@ -63,6 +63,11 @@ fn inside(done: &Evacuation<'_>) -> String {
     format!("they are at {}{more}", places.join(", "))
 }
 
+/// Whether time is lost, or gained by those that are pushed ahead.
+fn gained(lost: f64) -> &'static str {
+    if lost < 0.0 { "are gained" } else { "are lost" }
+}
+
 /// The page.
 pub fn text(done: &Evacuation<'_>) -> String {
     let report = &done.report;
@@ -98,11 +103,15 @@ pub fn text(done: &Evacuation<'_>) -> String {
         );
     }
     let small: f64 = report.small.iter().map(|one| one.lost).sum();
+    let smaller = match report.small.len() {
+        0 => String::new(),
+        n => format!("{:.0} {} before {n} smaller passages, and ", small.abs(), gained(small)),
+    };
     let _ = writeln!(
         page,
-        "\nOf {lost:.0} person-seconds lost, {small:.0} are at {} smaller passages, and {:.0} where no jam is near: while pedestrians start, turn and avoid each other.",
-        report.small.len(),
-        report.elsewhere
+        "\nOf these {lost:.0} person-seconds {smaller}{:.0} {} where no jam is near: while pedestrians start, turn and avoid each other, or are pushed ahead.",
+        report.elsewhere.abs(),
+        gained(report.elsewhere)
     );
     page.push_str("\n## Exits\n\n![how many have left](left.svg)\n\n| exit | line [m] | left | share | first [s] | last [s] | flow [1/s] |\n|---|---|---|---|---|---|---|\n");
     for exit in &report.exits {
