@@ -116,8 +116,9 @@ mod tests {
         }
         // In a room the sector to the left sees the wall behind, too: from 2 0 to 0 4.
         assert!((width(2.0, 2.0) - 20.0_f64.sqrt()).abs() < 1e-9, "{}", width(2.0, 2.0));
-        // Behind the wall by 0.98, at 45 degrees.
-        assert!((width(7.0, 4.6) - 1.96).abs() < 1e-9, "{}", width(7.0, 4.6));
+        // Behind the wall by 0.98, at 45 degrees, its posts are nearer to the middle than they are apart: no passage.
+        let behind = Passage::through(&plan, DVec2::new(7.0, 4.6), DVec2::X);
+        assert!(behind.is_none(), "{behind:?}");
         let door = Passage::through(&plan, DVec2::new(6.01, 4.5), DVec2::X).expect("a passage");
         let beside = Passage::through(&plan, DVec2::new(5.95, 3.85), DVec2::new(0.8, 0.6));
         assert!(beside.is_none_or(|one| one.width() >= 1.2), "{beside:?}");
