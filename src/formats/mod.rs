@@ -12,6 +12,8 @@ mod blocks;
 mod collection;
 mod contents;
 mod convert;
+#[cfg(feature = "images")]
+pub mod floor_picture;
 pub mod floor_plan;
 mod line;
 pub mod links;

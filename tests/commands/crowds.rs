@@ -150,3 +150,47 @@ fn faults_of_plans_and_limits_are_said() {
     let (code, _, words) = motes(&args);
     assert!(code == 8 && words.contains("an earlier run"), "{words}");
 }
+
+/// A picture of two rooms, five hundredths of a metre to a pixel: the left one has a door of 1.2 m, the exit is the right wall's opening.
+fn picture() -> Vec<u8> {
+    let (width, height) = (250_u32, 170_u32);
+    let color = |n: u32| -> [u8; 3] {
+        let (x, y) = (n % width, n / width);
+        let within = (5..245).contains(&x) && (5..165).contains(&y);
+        match within {
+            true if (235..239).contains(&x) && (9..161).contains(&y) => [220, 30, 30],
+            // From 3.0 to 4.2 m above the floor's lower side, which is row 165.
+            true if (125..129).contains(&x) && !(81..105).contains(&y) => [40, 40, 40],
+            true => [250, 250, 245],
+            false => [20, 20, 30],
+        }
+    };
+    let mut bytes = Vec::new();
+    let mut encoder = png::Encoder::new(&mut bytes, width, height);
+    encoder.set_color(png::ColorType::Rgb);
+    let mut writer = encoder.write_header().expect("a header");
+    writer.write_image_data(&(0..width * height).flat_map(color).collect::<Vec<u8>>()).expect("pixels");
+    writer.finish().expect("an end");
+    bytes
+}
+
+/// A plan as a picture: its door is named in metres from the lower left corner, with its width to a pixel.
+#[test]
+fn a_picture_is_a_plan() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = |name: &str| folder.path().join(name).to_str().expect("a path of words").to_owned();
+    std::fs::write(path("plan.png"), picture()).expect("a picture");
+    let (plan, out) = (path("plan.png"), path("out"));
+    let args =
+        ["crowds", &plan, "-o", &out, "--backend", "cpu", "--json", "--people", "40", "--start", "0.3,0.3,6,8.2"];
+    let (code, _, words) = motes(&args);
+    assert!(code == 4 && words.contains("--pixel 0.02"), "{code}: {words}");
+    let (code, text, words) = motes(&[&args[..], &["--pixel", "0.05"]].concat());
+    assert_eq!(code, 0, "{words}");
+    let report: Value = serde_json::from_str(&text).expect("JSON");
+    let named = &report["bottlenecks"][0];
+    let [x, y] = [&named["position"][0], &named["position"][1]].map(number);
+    assert!((x - 6.35).hypot(y - 3.85) < 0.5, "{named}");
+    assert!((number(&named["width"]) - 1.2).abs() < 0.1, "{named}");
+    assert_eq!(report["exits"][0]["count"].as_u64(), Some(40));
+}

@@ -8,8 +8,11 @@ use crate::cli::args::{DeviceArgs, ShowArgs, StopArgs, positive};
 
 #[derive(Debug, Clone, ClapArgs)]
 pub struct CrowdsArgs {
-    /// The floor plan: polygons and lines of exits as well-known text (WKT), in metres
+    /// The floor plan: polygons and lines of exits as well-known text (WKT), in metres, or a picture (PNG) in which walls are dark and exits are coloured
     pub plan: PathBuf,
+    /// The side of a pixel of a picture [m]
+    #[arg(long, value_name = "M", value_parser = positive)]
+    pub pixel: Option<f64>,
     /// The number of pedestrians
     #[arg(long, value_name = "N", default_value_t = 300, value_parser = clap::value_parser!(u32).range(1..=100_000))]
     pub people: u32,

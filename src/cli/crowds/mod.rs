@@ -59,6 +59,7 @@ pub async fn crowds(args: &CrowdsArgs) -> Result<(), Failure> {
     let mut progress = Progress::new(&args.show, 0, scene.steps);
     if !args.show.json {
         progress.say(&format!("{name}: {} pedestrians, on {}", args.people, engine.describe()));
+        read.remarks.iter().for_each(|remark| progress.warning(remark));
         engine.remarks(&setup)?.iter().chain(&scene.remarks).for_each(|remark| progress.remark(remark));
     }
     let begun = Instant::now();

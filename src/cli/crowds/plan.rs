@@ -3,7 +3,7 @@
 use motes::Error;
 use motes::evacuation;
 use motes::floor_plan::{Exit, FloorPlan};
-use motes::formats::floor_plan;
+use motes::formats::{floor_picture, floor_plan};
 
 use super::args::CrowdsArgs;
 
@@ -16,6 +16,8 @@ const REACH: f64 = 0.25;
 pub struct Read {
     pub plan: FloorPlan,
     pub wkt: String,
+    /// What one should know about it.
+    pub remarks: Vec<String>,
 }
 
 /// Reads the plan of the arguments.
@@ -26,8 +28,19 @@ pub fn read(args: &CrowdsArgs) -> Result<Read, Error> {
         return Err(bad(format!("{length} bytes are more than the {LONGEST} that a floor plan may have")));
     }
     let bytes = std::fs::read(&args.plan).map_err(|why| bad(why.to_string()))?;
-    let wkt = String::from_utf8(bytes).map_err(|_| bad("it is no text: a plan is well-known text (WKT)".to_owned()))?;
-    let drawn = floor_plan::read(&wkt).map_err(bad)?;
+    let is_picture = bytes.starts_with(b"\x89PNG");
+    let (drawn, remarks) = match args.pixel {
+        Some(side) if is_picture => floor_picture::read(&bytes, side).map_err(bad)?,
+        Some(_) => {
+            return Err(bad("--pixel is the scale of a picture (PNG), and this is none: leave it out".to_owned()));
+        }
+        None if is_picture => {
+            return Err(bad(
+                "a picture has no scale: give the side of a pixel in metres, as in --pixel 0.02".to_owned()
+            ));
+        }
+        None => (floor_plan::read(&words(bytes).map_err(bad)?).map_err(bad)?, Vec::new()),
+    };
     let count = drawn.exits.len();
     if !(args.exits.is_empty() || args.exits.len() == count) {
         let given = args.exits.len();
@@ -44,5 +57,10 @@ pub fn read(args: &CrowdsArgs) -> Result<Read, Error> {
     let exits: Vec<Exit> = drawn.exits.into_iter().zip(1..).map(named).collect();
     let wkt = evacuation::text(&drawn.polygons, &exits);
     let plan = FloorPlan::new(&drawn.polygons, exits, args.cell).map_err(bad)?;
-    Ok(Read { plan, wkt })
+    Ok(Read { plan, wkt, remarks })
+}
+
+fn words(bytes: Vec<u8>) -> Result<String, String> {
+    String::from_utf8(bytes)
+        .map_err(|_| "it is neither text nor a PNG: a plan is well-known text (WKT) or a picture".to_owned())
 }
