@@ -22,9 +22,12 @@ pub struct Passage {
 impl Passage {
     /// The narrowest one through a point, for motion in a direction: between the nearest points of walls within 45° of its right and of its left. None
     /// where there is no wall at a side, or both are the same corner. Within passages that is their clear width; in rooms walls before and behind may be
-    /// nearer than those at the sides, and it is less than the width of the room.
+    /// nearer than those at the sides, and it is less than the width of the room. None without a direction, as where the way ends.
     #[must_use]
     pub fn through(plan: &FloorPlan, x: DVec2, heading: DVec2) -> Option<Self> {
+        if heading == DVec2::ZERO {
+            return None;
+        }
         let left = heading.perp();
         let nearest = |side: DVec2| {
             let feet = plan.segments().iter().filter_map(|wall| clipped(wall, x, side));
@@ -122,6 +125,8 @@ mod tests {
         let door = Passage::through(&plan, DVec2::new(6.01, 4.5), DVec2::X).expect("a passage");
         let beside = Passage::through(&plan, DVec2::new(5.95, 3.85), DVec2::new(0.8, 0.6));
         assert!(beside.is_none_or(|one| one.width() >= 1.2), "{beside:?}");
+        // At an exit close behind a door the way ends, and nothing is to its left or right.
+        assert_eq!(Passage::through(&plan, DVec2::new(6.3, 4.5), DVec2::ZERO), None);
         let part = door.crossed([DVec2::new(5.9, 4.5), DVec2::new(6.3, 4.5)]).expect("crossed");
         assert!((part - 0.275).abs() < 1e-9);
         assert!(door.crossed([DVec2::new(5.9, 6.0), DVec2::new(6.3, 6.0)]).is_none());

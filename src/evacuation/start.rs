@@ -22,6 +22,8 @@ const MASS: f64 = 80.0;
 const WANDER: f64 = 0.4;
 /// The interval between samples \[s\].
 const SAMPLE: f64 = 0.25;
+/// The most others that one may touch: π / asin(0.25 / 0.6) = 7.3 of the smallest radius around one of the largest.
+const CONTACTS: f64 = 7.0;
 /// The largest step that friction between the fastest allows is divided by this.
 const SAFE: f64 = 0.97;
 
@@ -63,11 +65,11 @@ impl Start {
 /// [`Error::Scene`] where there is no room for so many.
 pub fn scene(plan: &FloorPlan, (wkt, about): (&str, &str), crowd: &Crowd, limit: f64) -> Result<Start, Error> {
     let bodies = bodies(plan, crowd)?;
-    // The overlap g of two that meet head on at the largest speed: 2 κ g / m times dt is 1 at most.
+    // The overlap g of two that meet head on at the largest speed: 2 κ g / m times dt is 4 / CONTACTS at most, as `check` asks.
     let fastest = SPREAD[2] * crowd.speed;
     let press = Press::of(&Settings::defaults(&[REPULSION, DECAY, STIFFNESS, FRICTION]));
     let overlap = fastest * (2.0 * MASS / press.stiffness).sqrt();
-    let longest = SAFE * 0.5 * MASS / (press.friction * overlap);
+    let longest = SAFE * 2.0 / CONTACTS * MASS / (press.friction * overlap);
     let parts = (SAMPLE / longest).ceil().max(1.0);
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a number of steps")]
     let every = parts as u32;
