@@ -131,7 +131,7 @@ pub struct ViewArgs {
     #[arg(long)]
     pub allow_outside: bool,
     /// End after this many frames
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
     pub frames: Option<u64>,
     /// Draw without a window, save the last frame here as a PNG, and end
     #[arg(long, value_name = "FILE", requires = "frames")]

@@ -25,7 +25,7 @@ pub async fn draw(args: &ViewArgs, file: &Path) -> Result<(), Failure> {
     #[expect(clippy::cast_precision_loss, reason = "at most 4096 pixels")]
     let screen = Rect::from_min_size(Pos2::ZERO, Vec2::new(width as f32, height as f32));
     let context = Context::default();
-    let frames = args.frames.unwrap_or(1).max(1);
+    let frames = args.frames.unwrap_or(1);
     // The first frame finds the place of the picture, and shows none.
     for frame in 0..=frames {
         let input = RawInput { screen_rect: Some(screen), time: Some(frame as f64 / 60.0), ..RawInput::default() };
@@ -38,7 +38,8 @@ pub async fn draw(args: &ViewArgs, file: &Path) -> Result<(), Failure> {
         found.faults.check()?;
     }
     Image { width, height, rgba: sheet.read().await?, outside: 0, broken: 0 }.save(file)?;
-    out!("{frames} frames, {} steps: {}", view.simulation().steps(), file.display());
+    let (steps, many) = (view.simulation().steps(), |n: u64| if n == 1 { "" } else { "s" });
+    out!("{frames} frame{}, {steps} step{}: {}", many(frames), many(steps), file.display());
     if view.message().is_empty() { Ok(()) } else { Err(Error::Device(view.message().to_owned()).into()) }
 }
 

@@ -22,11 +22,21 @@ use super::files::{Files, LOOK};
 
 /// Opens the window, and returns when it is closed.
 pub fn run(args: &ViewArgs) -> Result<(), Failure> {
-    let refused = |error: &dyn std::fmt::Display| Error::NoAdapter(format!("no window can be opened: {error}"));
     let mut app = App { args: args.clone(), shell: None, failed: None };
     let events = EventLoop::new().map_err(|error| refused(&error))?;
     events.run_app(&mut app).map_err(|error| refused(&error))?;
     app.failed.map_or(Ok(()), Err)
+}
+
+/// A window that cannot be opened. Where a system's error stands in the source of a library is left out.
+fn refused(error: &dyn std::fmt::Display) -> Error {
+    let text = error.to_string();
+    let why =
+        text.rsplit_once(".rs:").and_then(|(_, rest)| rest.split_once(": ")).map_or(text.as_str(), |(_, why)| why);
+    Error::NoAdapter(format!(
+        "no window can be opened: {}; `--frames N --screenshot FILE` draws without one",
+        why.trim_end_matches('.')
+    ))
 }
 
 struct App {
@@ -95,7 +105,6 @@ struct Shell {
 
 impl Shell {
     fn open(events: &ActiveEventLoop, args: &ViewArgs) -> Result<Self, Failure> {
-        let refused = |error: &dyn std::fmt::Display| Error::NoAdapter(format!("no window can be opened: {error}"));
         let begun = SystemTime::now();
         let loaded = block_on(super::load(args, None))?;
         let [width, height] = args.size;
@@ -183,4 +192,17 @@ fn save(taken: &Taken) -> Result<PathBuf, Error> {
     let file = names.map(PathBuf::from).find(|name| !name.exists()).unwrap_or_default();
     taken.image.save(&file)?;
     Ok(file)
+}
+
+#[cfg(test)]
+mod tests {
+    #[test]
+    fn what_a_system_says_is_kept_and_places_in_sources_are_not() {
+        let said = |text: &str| super::refused(&text).to_string();
+        let system = said(
+            "os error at /a/winit-0.30/src/platform_impl/linux/mod.rs:765: neither WAYLAND_DISPLAY nor DISPLAY is set.",
+        );
+        assert!(system.ends_with("no window can be opened: neither WAYLAND_DISPLAY nor DISPLAY is set; `--frames N --screenshot FILE` draws without one"), "{system}");
+        assert!(said("not supported").contains("opened: not supported; "));
+    }
 }
