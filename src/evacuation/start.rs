@@ -7,6 +7,7 @@ use glam::DVec2;
 use crate::crowds::{DECAY, FRICTION, Press, REPULSION, STIFFNESS};
 use crate::error::Error;
 use crate::floor_plan::FloorPlan;
+use crate::formats::floor_plan::Landing;
 use crate::settings::Settings;
 use crate::shapes::random::Random;
 
@@ -38,6 +39,8 @@ pub struct Crowd {
     pub speed: f64,
     /// The rectangles that they start in, each by two corners; none: the whole floor \[m\].
     pub within: Vec<[DVec2; 2]>,
+    /// Where the floor is outside of the building, and none starts.
+    pub outside: Vec<Landing>,
 }
 
 /// A scene of a crowd.
@@ -114,6 +117,7 @@ fn bodies(plan: &FloorPlan, crowd: &Crowd) -> Result<String, Error> {
             let apart = |exit: &crate::floor_plan::Exit| exit.distance(x) > exit.reach + radius;
             placed.iter().all(|(y, other)| x.distance(*y) >= radius + other)
                 && plan.holds(x)
+                && !crowd.outside.iter().any(|landing| landing.holds(x))
                 && plan.exits().iter().all(apart)
                 && cells.around(x).into_iter().any(|k| steps[k].is_some())
                 && plan.distance(x) >= radius

@@ -22,6 +22,26 @@ pub struct Drawn {
     pub exits: Vec<Vec<DVec2>>,
 }
 
+/// The floor outside of an exit.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Landing {
+    /// The middle of the exit \[m\].
+    pub middle: DVec2,
+    /// Out of the building.
+    pub outward: DVec2,
+    /// How far from the middle it reaches \[m\].
+    pub radius: f64,
+}
+
+impl Landing {
+    /// Whether a place is on it \[m\].
+    #[must_use]
+    pub fn holds(&self, x: DVec2) -> bool {
+        let r = x - self.middle;
+        r.length() <= self.radius && r.dot(self.outward) > 0.0
+    }
+}
+
 impl Drawn {
     /// The same seen from an origin, which is subtracted from all points \[length\].
     #[must_use]

@@ -205,6 +205,11 @@ fn faults_of_plans_and_limits_are_said() {
     refused(&plan("8 1, 8 3"), &["--start", "20,20,30,30"], 3, "have no room");
     refused(&plan("8 1, 8 3"), &["--exits", "a,b"], 4, "has 2 names, and the plan has 1");
     refused(&plan("8 1, 8 3"), &["--start", "1,2,3"], 2, "two corners");
+    // A wall right behind an exit pushes pedestrians back.
+    std::fs::write(path("plan.wkt"), plan("8.9 1, 8.9 3")).expect("a plan");
+    let near = ["crowds", &path("plan.wkt"), "-o", &path("near"), "--backend", "cpu", "--people", "2", "--limit", "1"];
+    let (code, _, words) = motes(&near);
+    assert!(code == 0 && words.contains("has a wall 0.10 m from its middle, at 8.90 2.00"), "{words}");
     std::fs::write(path("plan.wkt"), plan("8 1, 8 3")).expect("a plan");
     let args = ["crowds", &path("plan.wkt"), "-o", &path("short"), "--backend", "cpu", "--people", "5", "--limit", "1"];
     let (code, text, words) = motes(&args);

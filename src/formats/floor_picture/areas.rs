@@ -1,5 +1,9 @@
 //! Connected areas of a plan in pixels: its exits, and the floor beside them.
 
+use std::collections::VecDeque;
+
+use glam::DVec2;
+
 use super::colors::Picture;
 
 pub const OPEN: u8 = 0;
@@ -81,6 +85,39 @@ impl Areas {
     pub fn rooms_without_exit(&self) -> impl Iterator<Item = ((u32, u32), usize)> + '_ {
         let rooms = self.rooms.iter().filter(|room| !room.is_outside && !room.has_exit);
         rooms.map(|room| (room.first, room.pixels))
+    }
+    /// Adds to the floor what lies outside of exits up to a distance \[pixels\]: no wall stands right behind an exit, which would push pedestrians back.
+    pub fn land(&mut self, distance: f64) {
+        let mut left: VecDeque<(usize, usize)> = VecDeque::new();
+        for (x, y) in self.exits.iter().flatten() {
+            let at = *y as usize * self.width + *x as usize;
+            left.push_back((at, at));
+        }
+        let width = self.width;
+        let apart = |a: usize, b: usize| {
+            let [dx, dy] = [(a % width).abs_diff(b % width), (a / width).abs_diff(b / width)];
+            (dx as f64).hypot(dy as f64)
+        };
+        while let Some((at, origin)) = left.pop_front() {
+            for next in sides(width, self.height, at % width, at / width) {
+                let room = self.rooms.get(self.label[next] as usize);
+                if self.mask[next] != FLOOR
+                    && room.is_some_and(|room| room.is_outside)
+                    && apart(next, origin) <= distance
+                {
+                    self.mask[next] = FLOOR;
+                    left.push_back((next, origin));
+                }
+            }
+        }
+    }
+    /// The middle of what is beside an exit and outside, if anything is.
+    pub fn outside_of(&self, exit: &[(u32, u32)]) -> Option<DVec2> {
+        let beside = exit.iter().flat_map(|(x, y)| sides(self.width, self.height, *x as usize, *y as usize));
+        let is_outside = |at: &usize| self.rooms.get(self.label[*at] as usize).is_some_and(|room| room.is_outside);
+        let places: Vec<usize> = beside.filter(is_outside).collect();
+        let middle = |at: &usize| DVec2::new((at % self.width) as f64 + 0.5, (at / self.width) as f64 + 0.5);
+        (!places.is_empty()).then(|| places.iter().map(middle).sum::<DVec2>() / places.len() as f64)
     }
     /// Where floor touches floor by a corner alone, one pixel of it is taken away: outlines do not touch.
     pub fn part_corners(&mut self) {

@@ -18,6 +18,19 @@ pub struct Picture {
     pub kinds: Vec<u8>,
 }
 
+impl Picture {
+    /// The same with a margin of paper on all sides \[pixels\].
+    pub fn within(self, margin: u32) -> Self {
+        let (width, height) = (self.width + 2 * margin, self.height + 2 * margin);
+        let mut kinds = vec![OPEN; width as usize * height as usize];
+        for (row, y) in self.kinds.chunks_exact(self.width as usize).zip(margin as usize..) {
+            let start = y * width as usize + margin as usize;
+            kinds[start..start + row.len()].copy_from_slice(row);
+        }
+        Self { width, height, kinds }
+    }
+}
+
 /// Reads a PNG.
 pub fn read(bytes: &[u8]) -> Result<Picture, String> {
     let refused = |why: &dyn std::fmt::Display| format!("it is no PNG, or damaged ({why})");

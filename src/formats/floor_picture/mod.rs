@@ -9,7 +9,7 @@ mod outline;
 
 use glam::DVec2;
 
-use super::floor_plan::Drawn;
+use super::floor_plan::{Drawn, Landing};
 use crate::floor_plan::Polygon;
 use areas::{Areas, FLOOR};
 
@@ -20,22 +20,40 @@ const ROOM: f64 = 2.0;
 /// How far outlines are straightened \[pixels\].
 const STRAIGHT: f64 = 0.4;
 
-/// Reads a plan whose pixels have sides of this length \[m\]; also what one should know about it, in sentences.
+/// The floor goes on outside of exits up to this distance \[m\].
+const LANDING: f64 = 1.0;
+
+/// A plan that was read from a picture.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Plan {
+    /// The floor and the exits.
+    pub drawn: Drawn,
+    /// The floor outside of exits.
+    pub landings: Vec<Landing>,
+    /// What one should know about it, in sentences.
+    pub remarks: Vec<String>,
+}
+
+/// Reads a plan whose pixels have sides of this length \[m\]. Its floor goes on for a metre outside of each exit.
 ///
 /// # Errors
 /// A sentence, with the place in metres from the lower left corner: what is no PNG, has no exit, has a coloured spot that is too short for an exit, or an
 /// exit whose room is open to the edge of the picture.
-pub fn read(bytes: &[u8], side: f64) -> Result<(Drawn, Vec<String>), String> {
+pub fn read(bytes: &[u8], side: f64) -> Result<Plan, String> {
     if !(1e-4..=10.0).contains(&side) {
         return Err(format!("pixels of {side} m are no scale of a floor plan: give between 0.0001 and 10 m"));
     }
     let picture = colors::read(bytes)?;
-    let metres = |x: f64, y: f64| DVec2::new(x, f64::from(picture.height) - y) * side;
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "at most ten thousand pixels")]
+    let margin = (LANDING / side).ceil() as u32 + 1;
+    let high = f64::from(picture.height + margin);
+    let metres = |x: f64, y: f64| DVec2::new(x - f64::from(margin), high - y) * side;
+    let picture = picture.within(margin);
     let mut areas = Areas::of(&picture);
     if areas.exits.is_empty() {
         return Err("the picture has no exit, so that no way leads out: draw a coloured line, such as a green one, across each door that leads out".to_owned());
     }
-    let mut exits = Vec::new();
+    let (mut exits, mut landings) = (Vec::new(), Vec::new());
     for exit in &areas.exits {
         let [a, b] = outline::axis(exit);
         let (middle, length) = (metres(0.5 * (a.x + b.x), 0.5 * (a.y + b.y)), (a.distance(b) + 2.0) * side);
@@ -49,6 +67,11 @@ pub fn read(bytes: &[u8], side: f64) -> Result<(Drawn, Vec<String>), String> {
             return Err(format!(
                 "the exit at {at} has no closed room beside it: what is beside it reaches the edge of the picture; close the walls, also at the ends of the exit"
             ));
+        }
+        if let Some(outside) = areas.outside_of(exit) {
+            let across = (metres(b.x, b.y) - metres(a.x, a.y)).perp();
+            let outward = across * across.dot(metres(outside.x, outside.y) - middle).signum();
+            landings.push(Landing { middle, outward, radius: LANDING + 0.5 * length });
         }
         exits.push(vec![metres(a.x, a.y), metres(b.x, b.y)]);
     }
@@ -65,6 +88,7 @@ pub fn read(bytes: &[u8], side: f64) -> Result<(Drawn, Vec<String>), String> {
             )
         })
         .collect();
+    areas.land(LANDING / side);
     areas.part_corners();
     let rings = outline::rings(&areas.mask, areas.width, areas.height, |kind| kind == FLOOR);
     let points = |ring: &outline::Ring| {
@@ -76,7 +100,7 @@ pub fn read(bytes: &[u8], side: f64) -> Result<(Drawn, Vec<String>), String> {
         let holes = rings.iter().filter(|ring| ring.is_hole && ring.area == one.area);
         Polygon { outline: points(one), holes: holes.map(points).collect() }
     };
-    Ok((Drawn { polygons: outer.iter().map(polygon).collect(), exits }, remarks))
+    Ok(Plan { drawn: Drawn { polygons: outer.iter().map(polygon).collect(), exits }, landings, remarks })
 }
 
 #[cfg(test)]
@@ -124,13 +148,17 @@ mod tests {
 
     #[test]
     fn walls_exits_and_pillars_lie_where_they_are_drawn() {
-        let (drawn, remarks) = read(&room(GREEN, 0.0), 0.05).expect("a plan");
+        let Plan { drawn, remarks, landings } = read(&room(GREEN, 0.0), 0.05).expect("a plan");
         assert!(remarks.is_empty(), "{remarks:?}");
         let [floor] = &drawn.polygons[..] else { panic!("{} polygons", drawn.polygons.len()) };
         // 92 by 72 pixels and the door, of 4 by 24; corners are cut by an eighth of a pixel.
-        let wanted = (92.0 * 72.0 + 4.0 * 24.0) * 0.0025;
-        assert!((area(&floor.outline) - wanted).abs() < 8.0 * 0.125 * 0.0025 + 1e-9, "{}", area(&floor.outline));
-        assert!(floor.outline.len() <= 16, "{:?}", floor.outline);
+        // Outside a metre, of 20 pixels, from the exit: a rectangle beside it, and a quarter of a disc around the end of each wall.
+        let landing = (20.0 * 24.0 + 0.5 * std::f64::consts::PI * 400.0) * 0.0025;
+        let wanted = (92.0 * 72.0 + 4.0 * 24.0) * 0.0025 + landing;
+        assert!((area(&floor.outline) - wanted).abs() < 0.05 * landing, "{}", area(&floor.outline));
+        assert!(floor.outline.len() <= 40, "{:?}", floor.outline);
+        let [landing] = &landings[..] else { panic!("{landings:?}") };
+        assert!(landing.holds(DVec2::new(5.9, 2.5)) && !landing.holds(DVec2::new(5.0, 2.5)), "{landing:?}");
         let [pillar] = &floor.holes[..] else { panic!("{} holes", floor.holes.len()) };
         let round = std::f64::consts::PI * 0.45 * 0.45;
         assert!((area(pillar) / round - 1.0).abs() < 0.03, "{} for {round}", area(pillar));
@@ -154,7 +182,7 @@ mod tests {
                 _ => WHITE,
             }
         });
-        let (drawn, _) = read(&turned, 0.1).expect("a plan");
+        let Plan { drawn, .. } = read(&turned, 0.1).expect("a plan");
         let floor = &drawn.polygons[0];
         assert!((area(&floor.outline) - 36.0).abs() < 0.2, "{}", area(&floor.outline));
         assert!(floor.outline.len() < 100, "{} points", floor.outline.len());
@@ -191,8 +219,8 @@ mod tests {
                 WHITE
             }
         });
-        let (drawn, remarks) = read(&rooms, 0.1).expect("a plan");
-        assert_eq!(drawn.polygons.len(), 1);
+        let Plan { drawn, remarks, landings } = read(&rooms, 0.1).expect("a plan");
+        assert_eq!((drawn.polygons.len(), landings.len()), (1, 0));
         assert!((area(&drawn.polygons[0].outline) - 4.4 * 5.2).abs() < 0.01);
         assert!(remarks.len() == 1 && remarks[0].contains("of 22.9 m², has no way"), "{remarks:?}");
     }
