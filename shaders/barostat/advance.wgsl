@@ -28,7 +28,7 @@ fn box_advance() {
         let side = select(vec3f(1.0), corner - world.low, is_periodic);
         let way = side * grown(box_strain[0] / f32(world.dimensions)) + box_corner_low[0].xyz;
         let due = select(vec3f(), way, is_periodic);
-        let moves = any(abs(due) >= RESOLVED * max(abs(corner), abs(world.low)) & is_periodic);
+        let moves = any((abs(due) >= RESOLVED * max(abs(corner), abs(world.low))) & is_periodic);
         var next = Words(corner, due);
         if moves { next = two_sum(corner, due); }
         box_change[0] = vec4f((next.high - corner) / side, 0.0);

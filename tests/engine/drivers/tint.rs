@@ -25,6 +25,13 @@ fn gather(me: Particle, you: Particle, r: vec3f, sum: ptr<function, Sum>) {
 }
 fn finish(me: Particle, sum: Sum) -> vec4f { return vec4f(sum.acceleration, 0.0); }";
 
+/// A law that computes which words of a pair's history it names.
+const WORDS: &str = "fn gather(me: Particle, you: Particle, r: vec3f, sum: ptr<function, Sum>) {
+    for (var word = 0u; word < 3u; word += 1u) { remember(you, word, recall(you, word) + 1.0); }
+    (*sum).acceleration += r;
+}
+fn finish(me: Particle, sum: Sum) -> vec4f { return vec4f(sum.acceleration, 0.0); }";
+
 /// What no scene has: kernels of loops, what a device is asked, and users' laws that loop.
 fn others(machine: Machine) -> Vec<Kernel> {
     let flag = Flag { field: "solver".into(), word: 0, member: "done" };
@@ -37,11 +44,12 @@ fn others(machine: Machine) -> Vec<Kernel> {
         all.push(question);
     }
     let tree = Over::Tree { opening: Opening::Geometric { theta: 0.01 }, core: 0.0, auto: false };
-    for over in [Over::Pairs, tree] {
-        let params = vec![("n".to_owned(), Value::Number(100.0))];
+    let list = Over::List { range: 0.1, skin: None, slots: 2 };
+    for (over, text) in [(Over::Pairs, LOOPS), (tree, LOOPS), (list, WORDS)] {
+        let params = if text == LOOPS { vec![("n".to_owned(), Value::Number(100.0))] } else { Vec::new() };
         let setup = Setup {
             state: support::cloud(1200, 3),
-            forces: vec![Box::new(Custom { params, ..Custom::new("l", "l.wgsl", LOOPS, over) })],
+            forces: vec![Box::new(Custom { params, ..Custom::new("l", "l.wgsl", text, over) })],
             integrator: integrator("symplectic_euler"),
             dt: 0.01,
             bounds: Bounds::default(),
