@@ -110,7 +110,7 @@ pub mod tree;
 pub mod typed;
 #[doc(hidden)]
 pub mod updaters;
-#[cfg(feature = "view")]
+#[cfg(feature = "panel")]
 #[doc(hidden)]
 pub mod view;
 #[doc(hidden)]

@@ -8,7 +8,6 @@ use motes::{Cpu, Error, Gpu, Setup};
 
 use super::args::{BackendChoice, DeviceArgs, SceneArgs};
 use super::failure::Failure;
-use super::scale;
 
 /// A backend.
 pub enum Engine {
@@ -95,7 +94,7 @@ pub fn load_with(args: &SceneArgs, more: &[String]) -> Result<Scene, Failure> {
     let source = Source::find(&args.scene)?;
     let scene = Scene::load(&source, &overrides, &options)?;
     let Some(factor) = args.scale else { return Ok(scene) };
-    let scaled = scale::overrides(&scene, factor)?;
+    let scaled = scene.scaled(factor)?;
     overrides.extend_from_slice(&scaled);
     let mut scene = Scene::load(&source, &overrides, &options)?;
     scene.remarks.push(format!("--scale {factor} sets {}", scaled.join(", ")));

@@ -34,7 +34,6 @@ mod info;
 mod load;
 mod progress;
 mod run;
-mod scale;
 mod scenes;
 mod solves;
 mod stability;

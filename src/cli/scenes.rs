@@ -37,7 +37,7 @@ pub fn scenes(args: &ScenesArgs) -> Result<(), Failure> {
         Source::File(path) => {
             return Err(motes::Error::Scene(format!("{} is a file, not a built-in scene", path.display())).into());
         }
-        Source::Text { .. } => {}
+        Source::Text { .. } | Source::Memory { .. } => {}
     }
     Ok(())
 }

@@ -93,6 +93,7 @@ fn settle(folder: &Path) -> io::Result<()> {
 
 /// On other systems a folder cannot be opened as a file.
 #[cfg(not(unix))]
+#[expect(clippy::unnecessary_wraps, reason = "where folders can be opened it may fail")]
 fn settle(_: &Path) -> io::Result<()> {
     Ok(())
 }

@@ -27,6 +27,11 @@ pub struct Found {
 }
 
 /// The advice where there is no driver.
+#[cfg(target_arch = "wasm32")]
+pub const NO_DRIVER: &str =
+    "this browser gives no GPU: it needs WebGPU, a page by https or from this machine, and a GPU that it trusts";
+/// The advice where there is no driver.
+#[cfg(not(target_arch = "wasm32"))]
 pub const NO_DRIVER: &str = "no GPU driver was found (on Debian or Ubuntu `apt-get install mesa-vulkan-drivers` brings a fast one that \
                              runs on the processor)";
 

@@ -5,6 +5,7 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use futures_intrusive::sync::ManualResetEvent;
+#[cfg(not(target_arch = "wasm32"))]
 use web_time::Instant;
 
 use crate::error::Error;
@@ -19,21 +20,28 @@ const LONGEST: Duration = Duration::from_micros(500);
 /// A flag that is set once all work submitted before its creation is complete.
 pub struct Done {
     event: Arc<ManualResetEvent>,
+    #[cfg(not(target_arch = "wasm32"))]
     index: wgpu::SubmissionIndex,
 }
 
 impl Done {
     /// For all work submitted to a queue so far, of which `index` is the last submission.
+    #[cfg_attr(target_arch = "wasm32", expect(unused_variables, reason = "a browser knows when it is complete"))]
     pub fn of(queue: &wgpu::Queue, index: wgpu::SubmissionIndex) -> Self {
         let event = Arc::new(ManualResetEvent::new(false));
         let set = event.clone();
         queue.on_submitted_work_done(move || set.set());
-        Self { event, index }
+        Self {
+            event,
+            #[cfg(not(target_arch = "wasm32"))]
+            index,
+        }
     }
-    /// Polls for at most `time`. A browser answers in its own event loop, and is not waited for.
+    /// Polls for at most `time`.
     ///
     /// # Errors
     /// [`Error::Lost`] when the submission is unknown to the device: it is lost.
+    #[cfg(not(target_arch = "wasm32"))]
     pub fn within(&self, device: &wgpu::Device, time: Duration) -> Result<bool, Error> {
         if !wait_until(device, time, || self.event.is_set())? {
             return Ok(false);
@@ -54,6 +62,7 @@ impl Done {
 ///
 /// # Errors
 /// [`Error::Lost`] when the device is.
+#[cfg(not(target_arch = "wasm32"))]
 pub fn polled(device: &wgpu::Device, how: wgpu::PollType) -> Result<(), Error> {
     let poll = std::panic::AssertUnwindSafe(|| device.poll(how));
     match std::panic::catch_unwind(poll) {
@@ -85,6 +94,7 @@ pub fn wait_until(device: &wgpu::Device, time: Duration, mut so: impl FnMut() ->
 
 /// A browser answers in its own event loop.
 #[cfg(target_arch = "wasm32")]
+#[expect(clippy::unnecessary_wraps, reason = "other devices may be lost")]
 pub fn wait_until(_: &wgpu::Device, _: Duration, mut so: impl FnMut() -> bool) -> Result<bool, Error> {
     Ok(so())
 }

@@ -1,7 +1,9 @@
 //! Errors of a device, as typed errors.
 
+#[cfg(not(target_arch = "wasm32"))]
 use std::pin::pin;
 use std::sync::{Arc, Mutex};
+#[cfg(not(target_arch = "wasm32"))]
 use std::task::{Context, Poll, Waker};
 
 use crate::error::Error;
@@ -40,8 +42,8 @@ impl Faults {
     }
 }
 
-/// Calls a function with both error scopes open. The futures of a native device are ready at once; on the web an error arrives later, and
-/// is written to the page's console.
+/// Calls a function with error scopes open, whose futures are ready at once.
+#[cfg(not(target_arch = "wasm32"))]
 pub fn scoped<T>(device: &wgpu::Device, call: impl FnOnce() -> T) -> Result<T, Error> {
     let memory = device.push_error_scope(wgpu::ErrorFilter::OutOfMemory);
     let internal = device.push_error_scope(wgpu::ErrorFilter::Internal);
@@ -56,7 +58,15 @@ pub fn scoped<T>(device: &wgpu::Device, call: impl FnOnce() -> T) -> Result<T, E
     }
 }
 
+/// Calls a function. A browser reports errors later, whatever waits for them: they go to the owner of the device, as [`Faults`] of ours.
+#[cfg(target_arch = "wasm32")]
+#[expect(clippy::unnecessary_wraps, reason = "other devices report errors at once")]
+pub fn scoped<T>(_: &wgpu::Device, call: impl FnOnce() -> T) -> Result<T, Error> {
+    Ok(call())
+}
+
 /// A lost device, or one that its owner has destroyed, silently creates invalid buffers: their use is refused.
+#[cfg(not(target_arch = "wasm32"))]
 fn is_lost(device: &wgpu::Device) -> bool {
     let usage = wgpu::BufferUsages::MAP_READ | wgpu::BufferUsages::COPY_DST;
     let descriptor = wgpu::BufferDescriptor { label: Some("probe"), size: 4, usage, mapped_at_creation: false };
@@ -77,6 +87,7 @@ fn sort(message: String) -> Error {
     }
 }
 
+#[cfg(not(target_arch = "wasm32"))]
 fn ready<T>(future: impl Future<Output = T>) -> Option<T> {
     match pin!(future).poll(&mut Context::from_waker(Waker::noop())) {
         Poll::Ready(value) => Some(value),

@@ -3,7 +3,7 @@
 
 mod adapter;
 mod buffers;
-#[cfg(feature = "view")]
+#[cfg(feature = "panel")]
 mod canvas;
 mod done;
 mod driver;
@@ -17,7 +17,7 @@ mod repeat;
 mod saved;
 mod submit;
 mod timing;
-#[cfg(feature = "view")]
+#[cfg(feature = "panel")]
 mod window;
 
 use std::time::Duration;
@@ -26,7 +26,7 @@ pub use adapter::{Choice, Found, adapters, best, choose, instance, open, wanted_
 #[doc(hidden)]
 pub use adapter::{NO_DRIVER, flags};
 use buffers::Buffers;
-#[cfg(feature = "view")]
+#[cfg(feature = "panel")]
 #[doc(hidden)]
 pub use canvas::{Canvas, Controls, ROW, Sheet};
 #[doc(hidden)]
@@ -37,7 +37,7 @@ pub use program::Program;
 use read::Incoming;
 use saved::Saved;
 use submit::Queue;
-#[cfg(feature = "view")]
+#[cfg(feature = "panel")]
 #[doc(hidden)]
 pub use window::Window;
 

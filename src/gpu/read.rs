@@ -7,7 +7,9 @@ use std::sync::{Arc, Mutex, PoisonError};
 use std::task::{Context, Poll, Waker};
 use std::time::Duration;
 
-use futures_intrusive::channel::shared::{OneshotSender, oneshot_channel};
+#[cfg(not(target_arch = "wasm32"))]
+use futures_intrusive::channel::shared::OneshotSender;
+use futures_intrusive::channel::shared::oneshot_channel;
 use web_time::Instant;
 
 #[cfg(not(target_arch = "wasm32"))]
@@ -19,6 +21,7 @@ use crate::error::Error;
 use crate::kernel::{Array, Arrival};
 
 /// The maximum duration of one poll of the device, before the executor continues.
+#[cfg(not(target_arch = "wasm32"))]
 pub const LOOK: Duration = Duration::from_millis(2);
 /// The interval between two polls of a thread that watches a request.
 #[cfg(not(target_arch = "wasm32"))]
@@ -37,6 +40,7 @@ pub struct Request {
     /// `None` for an empty range.
     stage: Option<wgpu::Buffer>,
     /// The device sends the answer, or a watching thread after a timeout. The first one counts.
+    #[cfg(not(target_arch = "wasm32"))]
     sender: Arc<OneshotSender<Answer>>,
     /// Never locked: the mutex only makes a request `Sync`.
     coming: Mutex<Pin<Box<dyn Future<Output = Option<Answer>> + Send>>>,
@@ -64,6 +68,7 @@ pub fn request(
     let mut request = Request {
         device: device.clone(),
         stage: None,
+        #[cfg(not(target_arch = "wasm32"))]
         sender: sender.clone(),
         coming: Mutex::new(Box::pin(async move { receiver.receive().await })),
         answer: None,
@@ -112,8 +117,13 @@ impl Request {
         if let Err(why) = looked {
             return Some(Err(why));
         }
-        match self.come(Waker::noop()) {
-            Some(Ok(())) => self.stage.as_ref().map(|stage| copied(stage, self.len)),
+        self.arrived(Waker::noop())
+    }
+    /// The bytes, once they have arrived; the task of this waker is woken then.
+    fn arrived(&mut self, waker: &Waker) -> Option<Result<Vec<u8>, Error>> {
+        let Some(stage) = self.stage.clone() else { return Some(Ok(Vec::new())) };
+        match self.come(waker) {
+            Some(Ok(())) => Some(copied(&stage, self.len)),
             Some(Err(why)) => Some(Err(why)),
             None if Instant::now() > self.deadline => Some(Err(late(self.patience))),
             None => None,
@@ -144,6 +154,7 @@ impl Request {
     }
     /// A browser wakes by itself.
     #[cfg(target_arch = "wasm32")]
+    #[expect(clippy::unused_self, reason = "elsewhere a thread watches")]
     fn watch(&self, _: &Waker) -> bool {
         true
     }
@@ -201,8 +212,12 @@ pub async fn bytes(
     queue.idle().await?;
     let mut request = request(device, queue, buffer, from, len)?;
     poll_fn(|context| {
+        // A browser maps while nothing polls, and wakes the task then.
+        #[cfg(target_arch = "wasm32")]
+        let answer = request.arrived(context.waker());
+        #[cfg(not(target_arch = "wasm32"))]
         let answer = request.look(Some(LOOK));
-        if answer.is_none() {
+        if answer.is_none() && cfg!(not(target_arch = "wasm32")) {
             context.waker().wake_by_ref();
         }
         answer.map_or(Poll::Pending, Poll::Ready)

@@ -15,6 +15,15 @@ impl Image {
     pub fn save(&self, path: &Path) -> Result<(), Error> {
         atomically(path, |out| Ok(self.encode(out)?))
     }
+    /// A PNG in memory.
+    ///
+    /// # Errors
+    /// [`Error::Device`] when it has no pixels.
+    pub fn png(&self) -> Result<Vec<u8>, Error> {
+        let mut bytes = Vec::new();
+        self.encode(&mut bytes).map_err(|why| Error::Device(format!("the picture is no PNG: {why}")))?;
+        Ok(bytes)
+    }
 
     fn encode(&self, out: impl Write) -> Result<(), png::EncodingError> {
         let mut encoder = png::Encoder::new(out, self.width, self.height);

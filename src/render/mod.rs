@@ -15,7 +15,7 @@ mod frame;
 mod heading;
 mod keys;
 mod light;
-#[cfg(feature = "view")]
+#[cfg(feature = "panel")]
 mod live;
 #[cfg(feature = "images")]
 mod notes;
@@ -32,15 +32,15 @@ mod trail;
 pub use camera::{Camera, framed};
 pub use draw::{Image, draw};
 pub use exposure::Exposure;
-#[cfg(feature = "view")]
+#[cfg(feature = "panel")]
 pub use fields::PIXELS;
-#[cfg(feature = "view")]
+#[cfg(feature = "panel")]
 pub(crate) use fields::PROJECTED;
 pub use film::{Film, shoot};
 pub use fluid::Water;
 pub use frame::Frame;
 pub use keys::KEYS;
-#[cfg(feature = "view")]
+#[cfg(feature = "panel")]
 pub use live::Live;
 pub use palette::{Color, group_color, pack};
 pub use passes::absent;

@@ -15,7 +15,7 @@ use crate::scene::{Group, Scene};
 use crate::settings::Settings;
 use crate::simulation::Setup;
 use crate::state::State;
-#[cfg(feature = "view")]
+#[cfg(feature = "panel")]
 use crate::{render::Camera, settings::Value};
 
 /// The approximate number of points of a trail.
@@ -62,7 +62,7 @@ impl Pictures {
         }
     }
     /// The pictures of a scene with this setup, of which no file is written.
-    #[cfg(feature = "view")]
+    #[cfg(feature = "panel")]
     #[must_use]
     pub fn beside(scene: &Scene, setup: &Setup) -> Self {
         let of = Self::new(scene, setup.state.len(), (scenery(setup), setup.bounds), Stream::default());
@@ -125,7 +125,7 @@ pub(super) fn scenery(setup: &Setup) -> Scenery {
 }
 
 /// What a viewer changes.
-#[cfg(feature = "view")]
+#[cfg(feature = "panel")]
 impl Pictures {
     /// The settings of its pictures.
     #[must_use]

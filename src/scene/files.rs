@@ -20,7 +20,7 @@ pub(super) struct Files {
     /// The files that were found, by absolute paths.
     read: RefCell<Vec<PathBuf>>,
     folder: Option<PathBuf>,
-    embedded: &'static [(&'static str, &'static str)],
+    embedded: Vec<(String, String)>,
     allow_outside: bool,
 }
 
@@ -28,19 +28,24 @@ pub(super) struct Files {
 pub(super) enum Located {
     /// On the disk; with the name that the resolved scene gives it.
     Disk { path: PathBuf, name: String },
-    /// Built into the program.
-    Embedded { name: &'static str, text: &'static str },
+    /// Built into the program, or given with the scene.
+    Embedded { name: String, text: String },
 }
 
 impl Files {
     pub(super) fn new(opened: &Opened, allow_outside: bool) -> Self {
-        Self { read: RefCell::default(), folder: opened.folder.clone(), embedded: opened.embedded, allow_outside }
+        Self {
+            read: RefCell::default(),
+            folder: opened.folder.clone(),
+            embedded: opened.embedded.clone(),
+            allow_outside,
+        }
     }
 
     /// Finds the file that is given at `place` as the value of `key`.
     pub(super) fn locate(&self, key: &str, name: &str, place: &Place) -> Result<Located, Fault> {
         let shown = shorten(name);
-        if let Some(&(name, text)) = self.embedded.iter().find(|(n, _)| *n == name) {
+        if let Some((name, text)) = self.embedded.iter().find(|(n, _)| n == name).cloned() {
             return Ok(Located::Embedded { name, text });
         }
         // A built-in scene with an override is the user's own: it may name files in the current folder.
@@ -87,8 +92,7 @@ impl Located {
     /// Its name in the resolved scene.
     pub(super) fn name(&self) -> &str {
         match self {
-            Self::Disk { name, .. } => name,
-            Self::Embedded { name, .. } => name,
+            Self::Disk { name, .. } | Self::Embedded { name, .. } => name,
         }
     }
     /// Its text, for a shader.
@@ -112,7 +116,12 @@ impl Located {
     }
     fn text(&self, place: &Place, what: &str, longest: u64) -> Result<String, Fault> {
         match self {
-            Self::Embedded { text, .. } => Ok((*text).to_owned()),
+            Self::Embedded { name, text } if text.len() as u64 > longest => Err(Fault::at(
+                place,
+                format!("{} has {} bytes, more than the {longest} that {what} may have", shorten(name), text.len()),
+            )
+            .in_input()),
+            Self::Embedded { text, .. } => Ok(text.clone()),
             Self::Disk { path, .. } => {
                 let bad =
                     |why: String| Fault::at(place, format!("cannot read {}: {why}", shorten_path(path))).in_input();

@@ -36,6 +36,7 @@ mod particles;
 mod plan;
 mod report;
 mod resolved;
+mod scale;
 mod sections;
 mod simulation;
 mod solver;
@@ -155,6 +156,14 @@ impl Default for Options {
 }
 
 impl Scene {
+    /// The overrides, in the form of `--set`, that multiply its number of particles by a factor.
+    ///
+    /// # Errors
+    /// [`Error::Scene`] if the scene has no other resolution: it names particles by their ids, or they are ions or single bodies.
+    #[doc(hidden)]
+    pub fn scaled(&self, factor: f64) -> Result<Vec<String>, crate::Error> {
+        scale::overrides(self, factor)
+    }
     /// The integrator, with the settings of the scene.
     #[must_use]
     pub fn integrator(&self) -> Box<dyn integrators::Integrator> {

@@ -29,6 +29,15 @@ pub enum Source {
         /// The folder of the files that it names.
         folder: PathBuf,
     },
+    /// A text in memory, with the files that it names: for programs that have no disk.
+    Memory {
+        /// Its name in messages.
+        name: String,
+        /// The scene.
+        text: String,
+        /// Names and texts of files.
+        files: Vec<(String, String)>,
+    },
 }
 
 /// A source that has been read.
@@ -40,7 +49,7 @@ pub(super) struct Opened {
     pub(super) text: String,
     /// The folder of the files that it names; `None`: those of the built-in scene.
     pub(super) folder: Option<PathBuf>,
-    pub(super) embedded: &'static [(&'static str, &'static str)],
+    pub(super) embedded: Vec<(String, String)>,
 }
 
 impl Source {
@@ -83,11 +92,16 @@ impl Source {
                 let name = if matches!(name.as_str(), "." | "..") { "scene".to_owned() } else { name };
                 let folder = path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new(".")).to_owned();
                 let text = read(path).map_err(|why| Diagnostics::alone(&file, why, Vec::new()))?;
-                Ok(Opened { name, file, text, folder: Some(folder), embedded: &[] })
+                Ok(Opened { name, file, text, folder: Some(folder), embedded: Vec::new() })
             }
             Self::Builtin(b) => {
                 let file = format!("{}.toml", b.name);
-                Ok(Opened { name: b.name.to_owned(), file, text: b.text.to_owned(), folder: None, embedded: b.files })
+                let embedded = b.files.iter().map(|&(name, text)| (name.to_owned(), text.to_owned())).collect();
+                Ok(Opened { name: b.name.to_owned(), file, text: b.text.to_owned(), folder: None, embedded })
+            }
+            Self::Memory { name, text, files } => {
+                let source = Self::Text { name: name.clone(), text: text.clone(), folder: PathBuf::from(".") };
+                Ok(Opened { embedded: files.clone(), ..source.open()? })
             }
             Self::Text { name, text, folder } => {
                 if text.len() as u64 > LONGEST {
@@ -96,7 +110,13 @@ impl Source {
                 let stem =
                     Path::new(name).file_stem().map_or_else(|| name.clone(), |s| s.to_string_lossy().into_owned());
                 let folder = Some(folder.clone());
-                Ok(Opened { name: shorten(&stem), file: shorten(name), text: text.clone(), folder, embedded: &[] })
+                Ok(Opened {
+                    name: shorten(&stem),
+                    file: shorten(name),
+                    text: text.clone(),
+                    folder,
+                    embedded: Vec::new(),
+                })
             }
         }
     }

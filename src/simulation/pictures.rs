@@ -28,7 +28,7 @@ impl<B: Backend> Simulation<B> {
     ///
     /// # Errors
     /// As for [`Simulation::draw`].
-    #[cfg(feature = "view")]
+    #[cfg(feature = "panel")]
     pub async fn show(&mut self, live: &mut render::Live) -> Result<(), Error> {
         self.fits(&live.picture)?;
         self.settle().await?;

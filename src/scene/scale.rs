@@ -1,11 +1,12 @@
 //! `--scale`: the same scene with more or fewer particles. Fluids and lattices fill the same space by a wider or narrower spacing, and
 //! keep their mass.
 
-use motes::Error;
-use motes::scene::Scene;
-use motes::settings::Key;
-use motes::shapes::{self, Resolution};
 use toml::{Table, Value};
+
+use super::Scene;
+use crate::error::Error;
+use crate::settings::Key;
+use crate::shapes::{self, Resolution};
 
 /// The overrides, in the form of `--set`, that multiply the number of particles of a scene by a factor.
 ///
@@ -27,7 +28,7 @@ pub fn overrides(scene: &Scene, factor: f64) -> Result<Vec<String>, Error> {
                     .map(|shape| shaped(shape.resolution, table, [factor, narrower])),
                 "emitter" => Some(emitted(table, [factor, narrower])),
                 _ => word("kind")
-                    .and_then(motes::forces::entry)
+                    .and_then(crate::forces::entry)
                     .filter(|entry| has_spacing(entry.keys))
                     .map(|_| spaced(table, narrower)),
             };

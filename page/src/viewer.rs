@@ -1,0 +1,136 @@
+//! A scene that runs on a canvas.
+
+use std::sync::Arc;
+
+use egui::Context;
+use egui_winit::winit::dpi::PhysicalSize;
+use egui_winit::winit::window::Window;
+use motes::diagnose::{Judged, Remark};
+use motes::gpu::{Choice, Controls, Found, Window as Surface};
+use motes::scene::{Options, Scene, Source};
+use motes::view::{Make, PICTURE, Taken, View};
+use motes::{Energy, Error, Gpu, Simulation};
+
+/// Particles that a page may hold: more than a field of WebGPU's default size has room for.
+const MOST: u32 = 10_000_000;
+
+/// A scene of the page.
+pub struct Wanted {
+    pub source: Source,
+    /// Values in the form of `--set`.
+    pub overrides: Vec<String>,
+    /// A factor of the number of particles.
+    pub scale: Option<f64>,
+}
+
+/// A canvas, and what runs on it.
+pub struct Viewer {
+    surface: Surface,
+    found: Found,
+    context: Context,
+    size: PhysicalSize<u32>,
+    view: Option<View<Gpu>>,
+    /// The name of the scene that runs.
+    name: String,
+    taken: Option<Taken>,
+    /// Scenes that the panel asks for are opened by the page's script, which knows the link.
+    asked: Option<String>,
+}
+
+impl Viewer {
+    /// Opens a device that can draw on a window.
+    pub async fn open(window: Arc<Window>, context: Context) -> Result<Self, Error> {
+        let size = window.inner_size();
+        let (surface, found) = Surface::open(window, size.into(), &Choice::Best).await?;
+        Ok(Self { surface, found, context, size, view: None, name: String::new(), taken: None, asked: None })
+    }
+    /// Opens a scene in the place of the present one, which goes on where there are faults. Returns remarks on it.
+    pub async fn load(&mut self, wanted: &Wanted) -> Result<Vec<String>, String> {
+        let options = Options { most_particles: MOST, ..Options::default() };
+        let words = |error: Error| error.to_string();
+        let read = |overrides: &[String]| {
+            Scene::load(&wanted.source, overrides, &options).map_err(|faults| faults.to_string())
+        };
+        let mut overrides = wanted.overrides.clone();
+        let mut scene = read(&overrides)?;
+        if let Some(factor) = wanted.scale {
+            overrides.extend(scene.scaled(factor).map_err(words)?);
+            scene = read(&overrides)?;
+        }
+        let setup = scene.setup().in_its_box().map_err(words)?.into_owned();
+        let judged = Judged::of(&setup, scene.steps).await.map_err(words)?;
+        scene.remarks.extend(judged.remarks.iter().map(Remark::to_string));
+        let remarks = std::mem::take(&mut scene.remarks);
+        let (device, queue) = (self.found.device.clone(), self.found.queue.clone());
+        let make: Make<Gpu> = Box::new(move |setup| Simulation::new(&device, &queue, setup));
+        let view = View::new(&scene, setup, make).await.map_err(words)?;
+        self.found.faults.check().map_err(words)?;
+        self.name.clone_from(&scene.name);
+        self.view = Some(view);
+        Ok(remarks)
+    }
+    /// Whether nothing moves, so that no frame is due.
+    pub fn rests(&self) -> bool {
+        self.view.as_ref().is_none_or(View::is_paused)
+    }
+    pub fn view(&mut self) -> Option<&mut View<Gpu>> {
+        self.view.as_mut()
+    }
+    /// The name of the scene, the step, and what is said.
+    pub fn status(&mut self) -> (String, u64, String) {
+        let view = self.view.as_mut().map(|view| (view.simulation().steps(), view.message().to_owned()));
+        let (steps, said) = view.unwrap_or_default();
+        (self.name.clone(), steps, said)
+    }
+    pub fn taken(&mut self) -> Option<Taken> {
+        self.taken.take()
+    }
+    pub fn asked(&mut self) -> Option<String> {
+        self.asked.take()
+    }
+    /// Runs so many steps, and measures the energies.
+    pub async fn advance(&mut self, steps: u32) -> Result<Energy, Error> {
+        let Some(view) = &mut self.view else { return Err(Error::Scene("no scene runs".to_owned())) };
+        view.pause(true);
+        view.simulation().step(steps)?;
+        view.simulation().check().await?;
+        self.found.faults.check()?;
+        Energy::of(&view.simulation().snapshot().await?)
+    }
+    /// One frame: controls, steps, picture. Returns whether another is due soon.
+    pub async fn frame(&mut self, input: egui::RawInput, size: PhysicalSize<u32>) -> Result<Frame, Error> {
+        self.found.faults.check()?;
+        if size != self.size {
+            self.surface.resize(size.into())?;
+            self.size = size;
+        }
+        let mut output = self.context.run_ui(input, |ui| {
+            if let Some(view) = &mut self.view {
+                view.controls(ui);
+            }
+        });
+        let platform = std::mem::take(&mut output.platform_output);
+        let soon = output.viewport_output.values().any(|viewport| viewport.repaint_delay.is_zero());
+        let controls = Controls::of(&self.context, output);
+        if let Some(view) = &mut self.view {
+            view.advance().await?;
+            self.asked = view.wanted().or(self.asked.take());
+            self.taken = view.take().or(self.taken.take());
+            let size = view.size();
+            if let Some(pixels) = view.simulation().buffer(PICTURE) {
+                let id = self.surface.canvas().take(pixels, size)?;
+                view.show(id);
+            }
+        }
+        self.surface.paint(&controls)?;
+        Ok(Frame { platform, soon })
+    }
+}
+
+/// What a frame asks of the page.
+pub struct Frame {
+    /// The pointer's form, and text for the clipboard.
+    pub platform: egui::PlatformOutput,
+    /// Whether the controls are still moving.
+    pub soon: bool,
+}

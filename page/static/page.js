@@ -1,0 +1,246 @@
+// The page about the canvas: scenes, the editor, links. What runs on the canvas is `motes.js`.
+import init, { Viewer, builtIn } from "./motes.js";
+
+const at = (id) => document.getElementById(id);
+/** The built-in scenes by their names: their texts, and the files that they name. */
+let scenes = new Map();
+let viewer;
+/** What is open: a name, a text, files (names and texts) and values; the tab that is edited; whether it is as it was built in. */
+let open = { name: "", text: "", files: new Map(), overrides: [], scale: undefined };
+let tab = "";
+let loads = Promise.resolve();
+
+/** The first comment of a scene. */
+const about = (text) => {
+  const lines = [];
+  for (const line of text.split("\n")) {
+    if (!line.startsWith("#")) break;
+    lines.push(line.replace(/^# ?/, ""));
+  }
+  return lines.join(" ");
+};
+const sentence = (text) => text.split(/(?<=[.:!?]) /)[0];
+const pairs = (flat) => new Map(Array.from({ length: flat.length / 2 }, (_, i) => [flat[2 * i], flat[2 * i + 1]]));
+
+/** Bytes as words of a link, and back. */
+const packed = async (text) => {
+  const stream = new Blob([text]).stream().pipeThrough(new CompressionStream("deflate-raw"));
+  const bytes = new Uint8Array(await new Response(stream).arrayBuffer());
+  return btoa(Array.from(bytes, (byte) => String.fromCharCode(byte)).join("")).replace(/\+/g, "-").replace(/\//g, "_").replace(/=+$/, "");
+};
+const unpacked = async (words) => {
+  const bytes = Uint8Array.from(atob(words.replace(/-/g, "+").replace(/_/g, "/")), (letter) => letter.charCodeAt(0));
+  return new Response(new Blob([bytes]).stream().pipeThrough(new DecompressionStream("deflate-raw"))).text();
+};
+
+/** Says what is wrong, or what is to be remarked. */
+const say = (text, remarks = false) => {
+  at("faults").textContent = text;
+  at("faults").hidden = !text;
+  at("faults").classList.toggle("remarks", remarks);
+};
+const shown = (text, failed = false) => {
+  if (at("status").textContent !== text) at("status").textContent = text;
+  at("status").classList.toggle("failed", failed);
+};
+
+/** Opens what a link names: `#scene=galaxy&scale=0.5&simulation.dt=0.01`, or `#text=…`. */
+const follow = async () => {
+  const link = new URLSearchParams(location.hash.slice(1));
+  const next = { name: link.get("scene") ?? "galaxy", text: "", files: new Map(), overrides: [], scale: undefined };
+  const paused = link.get("paused") === "1" || (!link.has("paused") && matchMedia("(prefers-reduced-motion: reduce)").matches);
+  for (const [key, value] of link) {
+    if (!["scene", "scale", "paused", "text"].includes(key)) next.overrides.push(`${key}=${value}`);
+  }
+  if (link.has("scale")) next.scale = Number(link.get("scale"));
+  try {
+    if (link.has("text")) {
+      const { text, files } = JSON.parse(await unpacked(link.get("text")));
+      Object.assign(next, { text: String(text), files: new Map(Object.entries(files ?? {})) });
+    } else if (scenes.has(next.name)) {
+      const { text, files } = scenes.get(next.name);
+      Object.assign(next, { text, files: new Map(files) });
+    } else {
+      throw new Error(`there is no scene \`${next.name}\`: choose one of those that “Scenes” shows`);
+    }
+    if (next.scale !== undefined && !(next.scale > 0)) throw new Error("scale is no number above zero");
+  } catch (why) {
+    return refuse(`This link cannot be opened: ${why.message}`);
+  }
+  await run(next, paused);
+};
+/** Runs a scene; if it has faults, what runs goes on. */
+const run = (next, paused = false) => {
+  loads = loads.then(async () => {
+    const changed = open.name !== next.name;
+    open = next;
+    if (changed || !next.files.has(tab)) tab = "";
+    edit();
+    if (!viewer) return without();
+    shown(`opening ${next.name} …`);
+    // The words above are shown before the work begins.
+    await new Promise((done) => setTimeout(done, 30));
+    try {
+      const remarks = await viewer.load(next.name, next.text, [...next.files].flat(), next.overrides, next.scale);
+      await viewer.pause(paused);
+      say(remarks.join("\n"), true);
+      document.title = `motes: ${next.name}`;
+      at("title").textContent = `${next.name}: ${sentence(about(next.text))}`;
+    } catch (why) {
+      refuse(why.message);
+    }
+  });
+  return loads;
+};
+const refuse = (text) => {
+  say(text);
+  toggle(true);
+  shown("this scene has faults, which stand beside it; what ran before goes on", true);
+};
+
+/** The editor. */
+const toggle = (wanted) => {
+  at("editor").hidden = !wanted;
+  at("edit").setAttribute("aria-expanded", String(wanted));
+};
+const edit = () => {
+  at("tabs").replaceChildren(...["", ...open.files.keys()].map((name) => {
+    const button = document.createElement("button");
+    Object.assign(button, { type: "button", textContent: name || `${open.name}.toml` });
+    button.setAttribute("role", "tab");
+    button.setAttribute("aria-selected", String(name === tab));
+    button.onclick = () => { tab = name; edit(); };
+    return button;
+  }));
+  at("text").value = tab ? open.files.get(tab) : open.text;
+};
+at("text").oninput = () => {
+  if (tab) open.files.set(tab, at("text").value);
+  else open.text = at("text").value;
+  open.own = true;
+};
+at("text").onkeydown = (event) => {
+  if (event.key === "Enter" && (event.ctrlKey || event.metaKey)) at("editor").requestSubmit();
+};
+at("editor").onsubmit = (event) => {
+  event.preventDefault();
+  run(open);
+};
+at("edit").onclick = () => toggle(at("editor").hidden);
+at("law").onclick = () => {
+  const name = prompt("The name of the file, as the scene names it:", "law.wgsl");
+  if (name) { open.files.set(name, open.files.get(name) ?? ""); tab = name; open.own = true; edit(); }
+};
+const download = (name, parts, type) => {
+  const link = document.createElement("a");
+  link.href = URL.createObjectURL(new Blob(parts, { type }));
+  link.download = name;
+  link.click();
+  setTimeout(() => URL.revokeObjectURL(link.href), 10000);
+};
+at("save").onclick = () => download(tab || `${open.name}.toml`, [at("text").value], "text/plain");
+
+/** The link to what runs. */
+at("link").onclick = async () => {
+  const link = new URLSearchParams();
+  link.set("scene", open.name);
+  if (open.own || !scenes.has(open.name)) {
+    const words = await packed(JSON.stringify({ text: open.text, files: Object.fromEntries(open.files) }));
+    if (words.length > 8000) return shown("this scene is too long for a link: save it as a file", true);
+    link.set("text", words);
+  }
+  if (open.scale !== undefined) link.set("scale", String(open.scale));
+  for (const value of open.overrides) link.set(...value.split(/=(.*)/s, 2));
+  const url = `${location.href.split("#")[0]}#${link}`;
+  history.replaceState(null, "", url);
+  await navigator.clipboard?.writeText(url).then(() => shown("the link is on the clipboard"), () => shown("the link stands in the address"));
+};
+
+/** The gallery. */
+at("scenes").onclick = () => at("gallery").showModal();
+at("close").onclick = () => at("gallery").close();
+const hang = () => {
+  at("cards").replaceChildren(...[...scenes].map(([name, { text }]) => {
+    const card = document.createElement("a");
+    Object.assign(card, { className: "card", href: `#scene=${name}` });
+    const picture = Object.assign(document.createElement("img"), { src: `pictures/${name}.png`, alt: "", loading: "lazy" });
+    picture.onerror = () => picture.replaceWith(Object.assign(document.createElement("div"), { className: "blank" }));
+    const words = document.createElement("span");
+    words.textContent = sentence(about(text));
+    card.append(picture, Object.assign(document.createElement("strong"), { textContent: name }), words);
+    card.onclick = () => { at("gallery").close(); if (location.hash === `#scene=${name}`) follow(); };
+    return card;
+  }));
+};
+
+/** Files that are dropped: a scene is run, others stand beside it. */
+document.addEventListener("dragover", (event) => event.preventDefault());
+document.addEventListener("drop", async (event) => {
+  event.preventDefault();
+  const files = [...(event.dataTransfer?.files ?? [])];
+  if (!files.length) return;
+  let next = { ...open, files: new Map(open.files), own: true };
+  for (const file of files) {
+    const text = await file.text();
+    if (file.name.endsWith(".toml")) next = { ...next, name: file.name.replace(/\.toml$/, ""), text, overrides: [], scale: undefined };
+    else next.files.set(file.name, text);
+  }
+  toggle(true);
+  await run(next);
+});
+
+/** What is shown where nothing can run. */
+const without = () => {
+  const { name, text } = open;
+  const words = document.createElement("p");
+  words.textContent = about(text);
+  const picture = Object.assign(document.createElement("img"), { src: `pictures/${name}.png`, alt: `A picture of ${name}` });
+  picture.onerror = () => picture.remove();
+  const why = document.createElement("p");
+  why.textContent = at("instead").dataset.why;
+  at("instead").replaceChildren(why, words, picture);
+  at("instead").hidden = false;
+  shown("nothing runs here", true);
+};
+const NONE = "This browser offers no WebGPU, so nothing can be simulated here. Chrome and Edge have it since version 113, Safari since 26, "
+  + "Firefox since 141; a page needs https, or to be served by this machine. The command `motes` runs the same scenes without a browser.";
+
+/** How the run stands, four times a second. */
+const watch = async () => {
+  try {
+    const status = await viewer.status();
+    if (status.failed) {
+      shown(`stopped: ${status.failed}. Load the page again to go on.`, true);
+    } else if (status.scene && at("faults").hidden | at("faults").classList.contains("remarks")) {
+      shown(`${status.scene} · step ${status.steps}${status.message ? ` · ${status.message}` : ""}`);
+    }
+    if (status.picture) download(status.picture, [status.png], "image/png");
+    if (status.asked) location.hash = `#scene=${status.asked}`;
+    status.free();
+  } catch (why) {
+    shown(`stopped: ${why.message}`, true);
+    return;
+  }
+  setTimeout(watch, 250);
+};
+
+const begin = async () => {
+  await init({ module_or_path: new URL("motes_bg.wasm", import.meta.url) });
+  scenes = new Map(builtIn().map((scene) => [scene.name, { text: scene.text, files: pairs(scene.files) }]));
+  hang();
+  if (!navigator.gpu) {
+    at("instead").dataset.why = NONE;
+  } else {
+    try {
+      viewer = await Viewer.open(at("canvas"));
+      watch();
+    } catch (why) {
+      at("instead").dataset.why = `${why.message}. The command \`motes\` runs the same scenes without a browser.`;
+    }
+  }
+  // What tests call.
+  window.motes = viewer;
+  window.addEventListener("hashchange", follow);
+  await follow();
+};
+begin().catch((why) => shown(`the page cannot start: ${why.message}`, true));

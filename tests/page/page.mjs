@@ -1,0 +1,187 @@
+// Opens the built page in Chromium, with WebGPU by SwiftShader, and checks what it does. Arguments: the folder of the page, the command
+// `motes`, which runs the same scenes, and a folder for pictures.
+import assert from "node:assert/strict";
+import { execFileSync } from "node:child_process";
+import { mkdtempSync, readFileSync, writeFileSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+import { chromium } from "playwright-core";
+import { open, serve } from "./serve.mjs";
+
+const [folder, motes, pictures] = process.argv.slice(2);
+const LIMIT = 120_000;
+/** Scenes small enough for a processor, and the part of the larger energy by which theirs may differ after 100 steps from the command's: both
+ * are single precision, on two drivers. */
+const SCENES = [
+  ["galaxy", 0.02, 1e-4],
+  ["cloth", 0.2, 1e-4],
+  ["dam_break", 0.1, 1e-4],
+  ["fish_school", 0.1, 1e-4],
+];
+
+const server = await serve(folder);
+const browser = await open(chromium);
+const said = [];
+
+/** A page that shows a link, once the scene runs. */
+const visit = async (link, before) => {
+  const page = await browser.newPage({ viewport: { width: 900, height: 600 } });
+  page.setDefaultTimeout(LIMIT);
+  page.on("console", (message) => { if (["error", "warning"].includes(message.type())) said.push(`${link}: ${message.text()}`); });
+  page.on("pageerror", (error) => said.push(`${link}: ${error.message}`));
+  if (before) await page.addInitScript(before);
+  const begun = Date.now();
+  await page.goto(`${server.url}#${link}`);
+  return Object.assign(page, { begun });
+};
+/** Waits until a question to the page is answered by something true. */
+const until = async (page, question, value) => {
+  const end = Date.now() + LIMIT;
+  while (Date.now() < end) {
+    const answer = await page.evaluate(question, value);
+    if (answer) return answer;
+    await page.waitForTimeout(200);
+  }
+  throw new Error(`after ${LIMIT / 1000} s still not: ${question}; the page says: ${await page.textContent("#status")}; ${await page.textContent("#faults")}`);
+};
+const runs = (page, scene) => until(page, async (scene) => {
+  const status = await window.motes?.status();
+  if (status?.failed) throw new Error(status.failed);
+  return status?.scene === scene;
+}, scene);
+const steps = (page) => page.evaluate(async () => (await window.motes.status()).steps);
+
+/** How many pixels of the canvas are brighter than a dark grey, and their means: it is drawn again, and read by the page itself. */
+const lit = async (page, name) => {
+  const png = await page.locator("#canvas").screenshot();
+  if (pictures) writeFileSync(join(pictures, `${name}.png`), png);
+  return page.evaluate(async (words) => {
+    const image = await createImageBitmap(await (await fetch(`data:image/png;base64,${words}`)).blob());
+    const canvas = new OffscreenCanvas(image.width, image.height);
+    const context = canvas.getContext("2d");
+    context.drawImage(image, 0, 0);
+    // The panel lies on the right.
+    const { data } = context.getImageData(0, 0, Math.floor(0.6 * image.width), image.height);
+    let count = 0;
+    let sum = 0;
+    for (let i = 0; i < data.length; i += 4) {
+      const bright = Math.max(data[i], data[i + 1], data[i + 2]);
+      sum += bright;
+      if (bright > 60) count += 1;
+    }
+    return { count, sum };
+  }, png.toString("base64"));
+};
+
+/** The last row of the command's energies after so many steps: kinetic, potential. */
+const command = (scene, scale) => {
+  const place = mkdtempSync(join(tmpdir(), "page-"));
+  execFileSync(motes, ["run", scene, "--scale", String(scale), "--steps", "100", "-o", place, "--set", "output.pictures=false"], { stdio: "pipe" });
+  const [head, ...rows] = readFileSync(join(place, "energy.csv"), "utf8").trim().split("\n").map((row) => row.split(","));
+  const column = (name) => Number(rows.at(-1)[head.findIndex((title) => title.startsWith(name))]);
+  return ["kinetic", "potential"].map(column);
+};
+
+const tests = {
+  async "a scene is shown, and runs"() {
+    const page = await visit("scene=galaxy&scale=0.02");
+    await runs(page, "galaxy");
+    const seconds = (Date.now() - page.begun) / 1000;
+    assert.ok(seconds < 30, `it opened after ${seconds} s`);
+    const before = await steps(page);
+    await until(page, async (before) => (await window.motes.status()).steps > before + 5, before);
+    const { count } = await lit(page, "galaxy");
+    assert.ok(count > 500, `${count} pixels of the picture are lit`);
+    assert.match(await page.textContent("#status"), /galaxy · step \d+/);
+    await page.close();
+  },
+  async "energies are those of the command"() {
+    for (const [scene, scale, part] of SCENES) {
+      const page = await visit(`scene=${scene}&scale=${scale}&paused=1`);
+      await runs(page, scene);
+      assert.equal(await steps(page), 0, "a link with `paused` stands still");
+      const [, ...here] = await page.evaluate(async () => [...await window.motes.advance(100)]);
+      const there = command(scene, scale);
+      const larger = Math.max(...there.map(Math.abs));
+      const apart = Math.max(...here.map((value, i) => Math.abs(value - there[i]))) / larger;
+      console.log(`  ${scene}: kinetic and potential energy ${here} in the page, ${there} by the command, ${apart.toExponential(1)} apart`);
+      assert.ok(larger > 0 && apart < part, `${scene}: ${here} in the page, ${there} by the command`);
+      await page.waitForTimeout(1000);
+      const { count } = await lit(page, scene);
+      assert.ok(count > 300, `${scene}: ${count} pixels of the picture are lit`);
+      await page.close();
+    }
+  },
+  async "values of a link, and faults of a scene"() {
+    const page = await visit("scene=galaxy&scale=0.02&paused=1&picture.style=light");
+    await runs(page, "galaxy");
+    await page.evaluate(() => { location.hash = "#scene=galaxy&scale=0.02&force.0.softning=1"; });
+    await page.waitForSelector("#faults:not([hidden])");
+    const fault = await page.textContent("#faults");
+    assert.match(fault, /softning[\s\S]*softening/, fault);
+    await page.click("#edit");
+    await page.click("#edit");
+    await page.fill("#text", "# A scene\n[simulation]\ndt = \"short\"\nsteps = 10\n");
+    await page.click("#editor [type=submit]");
+    await until(page, () => document.getElementById("faults").textContent.includes("short"));
+    assert.match(await page.textContent("#faults"), /\^/, "a caret stands at the place");
+    const status = await page.evaluate(async () => (await window.motes.status()).scene);
+    assert.equal(status, "galaxy", "what ran before goes on");
+    await page.close();
+  },
+  async "a law of one's own, in a file of its own, by a link"() {
+    const page = await visit("scene=galaxy&scale=0.02&paused=1");
+    await runs(page, "galaxy");
+    const law = "struct Params { strength: f32 }\n@group(3) @binding(0) var<uniform> params: Params;\n"
+      + "fn force(me: Particle) -> vec4f {\n    return vec4f(-params.strength * me.position, 0.5 * params.strength * dot(me.position, me.position));\n}\n";
+    const scene = "# Particles on springs to the origin.\n[simulation]\ndt = 0.01\nsteps = 1000\n\n[[particles]]\nshape = \"ball\"\ncount = 500\nradius = 1.0\n\n"
+      + "[[force]]\nwgsl = \"law.wgsl\"\nover = \"each\"\nparams = { strength = 1.0 }\n";
+    await page.evaluate(({ law }) => { window.prompt = () => "law.wgsl"; document.getElementById("law").click(); void law; }, { law });
+    await page.evaluate(({ law, scene }) => {
+      const text = document.getElementById("text");
+      const type = (words) => { text.value = words; text.dispatchEvent(new Event("input")); };
+      type(law);
+      document.querySelector("#tabs button").click();
+      type(scene);
+      document.getElementById("editor").requestSubmit();
+    }, { law, scene });
+    await until(page, async () => (await window.motes.advance(0), document.getElementById("faults").textContent === ""
+      && document.getElementById("title").textContent.includes("springs")));
+    // The potential is unknown; the kinetic energy of particles that fall from rest grows.
+    const [time, kinetic] = await page.evaluate(async () => [...await window.motes.advance(50)]);
+    assert.ok(Math.abs(time - 0.5) < 1e-6 && kinetic > 0.01, `${time} ${kinetic}`);
+    await page.click("#link");
+    const link = await page.evaluate(() => location.hash);
+    const other = await visit(link.slice(1));
+    await until(other, () => document.getElementById("title").textContent.includes("springs"));
+    assert.equal(await other.textContent("#faults"), "");
+    await page.close();
+    await other.close();
+  },
+  async "without WebGPU it says so, and shows a picture"() {
+    const page = await visit("scene=galaxy", () => Object.defineProperty(Navigator.prototype, "gpu", { get: () => undefined }));
+    await page.waitForSelector("#instead:not([hidden])");
+    assert.match(await page.textContent("#instead"), /WebGPU/);
+    assert.ok(await page.evaluate(() => document.querySelectorAll(".card").length) > 10, "the gallery is there");
+    await page.close();
+  },
+};
+
+let failed = 0;
+const wanted = process.env.PAGE_TEST;
+for (const [name, test] of Object.entries(tests)) {
+  if (wanted && !name.includes(wanted)) continue;
+  const begun = Date.now();
+  try {
+    await test();
+    assert.deepEqual(said, [], "the console is silent");
+    console.log(`ok   ${name} (${((Date.now() - begun) / 1000).toFixed(1)} s)`);
+  } catch (why) {
+    failed += 1;
+    console.log(`FAIL ${name}: ${why.stack}\n  console: ${said.join("\n  ")}`);
+  }
+  said.length = 0;
+}
+await browser.close();
+server.end();
+process.exit(failed ? 1 : 0);
