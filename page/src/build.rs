@@ -35,7 +35,14 @@ pub fn page() -> Result<PathBuf, Fault> {
     ]))?;
     let wasm = build.join(TARGET).join("page").join("page.wasm");
     fs::create_dir_all(&folder)?;
-    Bindgen::new().input_path(&wasm).web(true)?.typescript(false).remove_name_section(true).remove_producers_section(true).out_name("motes").generate(&folder)?;
+    Bindgen::new()
+        .input_path(&wasm)
+        .web(true)?
+        .typescript(false)
+        .remove_name_section(true)
+        .remove_producers_section(true)
+        .out_name("motes")
+        .generate(&folder)?;
     optimize(&folder.join("motes_bg.wasm"))?;
     for file in fs::read_dir(root.join("page/static"))? {
         let file = file?;

@@ -48,6 +48,8 @@ impl Shell {
         let window: Arc<Window> =
             opened.receive().await.unwrap_or_else(|| Err("no answer".to_owned())).map_err(|why| refused(&why))?;
         let context = Context::default();
+        // As the rest of the page.
+        context.set_theme(egui::Theme::Dark);
         let input = egui_winit::State::new(context.clone(), ViewportId::ROOT, &window, None, window.theme(), None);
         let viewer = LocalMutex::new(Viewer::open(window.clone(), context).await?, true);
         let made = Rc::new(Self {

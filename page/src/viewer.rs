@@ -92,8 +92,7 @@ impl Viewer {
     pub async fn advance(&mut self, steps: u32) -> Result<Energy, Error> {
         let Some(view) = &mut self.view else { return Err(Error::Scene("no scene runs".to_owned())) };
         view.pause(true);
-        view.simulation().step(steps)?;
-        view.simulation().check().await?;
+        view.step(steps).await?;
         self.found.faults.check()?;
         Energy::of(&view.simulation().snapshot().await?)
     }

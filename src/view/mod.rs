@@ -199,7 +199,11 @@ impl<B: Backend> View<B> {
         };
         Ok(())
     }
-    async fn step(&mut self, steps: u32) -> Result<(), Error> {
+    /// Makes steps, also when it is paused.
+    ///
+    /// # Errors
+    /// What stops the run, and when the device is lost, out of memory or does not answer in time.
+    pub async fn step(&mut self, steps: u32) -> Result<(), Error> {
         let begun = Instant::now();
         self.stage.advance(steps).await?;
         self.pace.stepped(steps, begun.elapsed());
