@@ -27,7 +27,7 @@ impl File {
 /// All files of an ending, under the folders that hold sources.
 fn files(ending: &str) -> Vec<File> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
-    let folders = ["src", "shaders", "tests", "examples", "benches"];
+    let folders = ["src", "shaders", "tests", "examples", "benches", "page"];
     let files: Vec<File> = folders.iter().flat_map(|folder| texts(&root.join(folder), root, ending)).collect();
     assert!(files.len() > 20, "{} files in .{ending} are not the project", files.len());
     files

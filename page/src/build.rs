@@ -20,10 +20,9 @@ pub fn page() -> Result<PathBuf, Fault> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).parent().ok_or("the project has no folder")?;
     let build = std::env::var_os("CARGO_TARGET_DIR").map_or_else(|| root.join("target"), PathBuf::from);
     let folder = std::env::args_os().nth(1).map_or_else(|| build.join("site"), PathBuf::from);
-    add_target()?;
+    let mut compile = compiler()?;
     println!("compiling for browsers, which takes some minutes the first time");
-    let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
-    run(Command::new(cargo).current_dir(root).args([
+    run(compile.current_dir(root).args([
         "build",
         "--profile",
         "page",
@@ -59,14 +58,25 @@ pub fn page() -> Result<PathBuf, Fault> {
     Ok(folder)
 }
 
-/// The standard library for browsers.
-fn add_target() -> Result<(), Fault> {
+/// The compiler with the standard library for browsers: that of rustup, or Debian's, which compiles that library, too.
+fn compiler() -> Result<Command, Fault> {
+    let cargo = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
     let known = Command::new("rustc").args(["--print", "target-libdir", "--target", TARGET]).output()?;
     if Path::new(String::from_utf8(known.stdout)?.trim()).exists() {
-        return Ok(());
+        return Ok(cargo);
     }
     println!("adding {TARGET} to Rust");
-    run(Command::new("rustup").args(["target", "add", TARGET]))
+    let Err(refused) = run(Command::new("rustup").args(["target", "add", TARGET])) else { return Ok(cargo) };
+    let source = Path::new("/usr/lib/rustlib/src/rust/library/std");
+    let debian = ["/usr/bin/cargo", "/usr/bin/rustc", "/usr/bin/wasm-ld"].map(Path::new);
+    if !source.exists() || !debian.iter().all(|program| program.exists()) {
+        return Err(format!("{refused}; on Debian the packages rustc-web cargo-web rust-web-src lld do as well").into());
+    }
+    let [cargo, rustc, linker] = debian;
+    let mut cargo = Command::new(cargo);
+    cargo.arg("-Zbuild-std=std,panic_abort").env("RUSTC_BOOTSTRAP", "1").env("RUSTC", rustc);
+    cargo.env("CARGO_TARGET_WASM32_UNKNOWN_UNKNOWN_LINKER", linker).env_remove("RUSTUP_TOOLCHAIN");
+    Ok(cargo)
 }
 
 fn run(command: &mut Command) -> Result<(), Fault> {

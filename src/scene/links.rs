@@ -79,7 +79,9 @@ fn from_file(
             Ok(links) => Ok((links, name.clone())),
             Err(why) => Err(Fault::at(place, why.to_string()).in_input()),
         },
-        Located::Embedded { name, .. } => Err(Fault::at(place, format!("{name} has no links"))),
+        Located::Embedded { name, .. } => {
+            Err(Fault::at(place, format!("{name} has no links: they are read from files on a disk")))
+        }
     });
     match read {
         Ok((links, path)) => {

@@ -140,7 +140,9 @@ fn from_file(
             Ok(particles) => Ok((particles, name.clone())),
             Err(why) => Err(Fault::at(place, why.to_string()).in_input()),
         },
-        Located::Embedded { name, .. } => Err(Fault::at(place, format!("{name} has no particles"))),
+        Located::Embedded { name, .. } => {
+            Err(Fault::at(place, format!("{name} has no particles: they are read from files on a disk")))
+        }
     });
     match located {
         Ok((particles, path)) => {

@@ -249,3 +249,26 @@ error: `strength` must be a number, three numbers, or true or false, not the tex
 scene.toml: 3 errors"#;
     assert_eq!((report.as_str(), code), (expected, 3));
 }
+
+/// A scene in memory with a law in memory, as a page in a browser has them.
+#[test]
+fn scenes_in_memory_bring_their_files() {
+    let text = "[simulation]\ndt = 0.01\nsteps = 1\n[[particles]]\nshape = \"sphere\"\ncount = 9\n[[force]]\nwgsl = \"law.wgsl\"\nover = \"each\"\n";
+    let law = "fn force(me: Particle) -> vec4f { return vec4f(-me.position, 0.0); }";
+    let load = |files: &[(&str, &str)], text: &str| {
+        let files = files.iter().map(|(name, text)| ((*name).to_owned(), (*text).to_owned())).collect();
+        let source = Source::Memory { name: "mine.toml".to_owned(), text: text.to_owned(), files };
+        Scene::load(&source, &[], &Options::default()).map_err(|faults| faults.to_string())
+    };
+    let scene = load(&[("law.wgsl", law)], text).expect("a scene");
+    assert_eq!((scene.name.as_str(), scene.forces.len(), scene.files.len()), ("mine", 1, 0));
+    let refused = |files: &[(&str, &str)], text: &str| load(files, text).err().expect("faults");
+    let absent = refused(&[], text);
+    assert!(absent.contains("there is no file law.wgsl") && absent.contains("mine.toml:8"), "{absent}");
+    let long = format!("//{}\n{law}", " ".repeat(1 << 20));
+    let long = refused(&[("law.wgsl", &long)], text);
+    assert!(long.contains("more than the 1048576 that a shader may have"), "{long}");
+    let particles =
+        refused(&[("a.csv", "x,y,z\n1,2,3\n")], "[simulation]\ndt = 0.1\nsteps = 1\n[[particles]]\nfile = \"a.csv\"\n");
+    assert!(particles.contains("a.csv has no particles: they are read from files on a disk"), "{particles}");
+}
