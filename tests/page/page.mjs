@@ -161,6 +161,41 @@ const tests = {
     await page.close();
     await other.close();
   },
+  async "the gallery has a picture of every scene, and opens them"() {
+    const page = await visit("scene=galaxy&scale=0.02&paused=1");
+    await runs(page, "galaxy");
+    await page.click("#scenes");
+    const cards = await until(page, async () => {
+      const cards = [...document.querySelectorAll(".card")];
+      cards.forEach((card) => card.scrollIntoView());
+      const drawn = cards.filter((card) => card.querySelector("img")?.naturalWidth > 100);
+      return cards.length > 10 && drawn.length === cards.length && cards.length;
+    });
+    console.log(`  ${cards} scenes`);
+    await page.click('.card[href="#scene=figure_eight"]');
+    await runs(page, "figure_eight");
+    assert.match(await page.textContent("#title"), /^figure_eight: /);
+    await page.close();
+  },
+  async "laws that do not compile are said"() {
+    const page = await visit("scene=galaxy&scale=0.02&paused=1");
+    await runs(page, "galaxy");
+    // A law that naga refuses: its place is shown, and the scene from before goes on.
+    await page.evaluate(() => {
+      const text = document.getElementById("text");
+      const type = (words) => { text.value = words; text.dispatchEvent(new Event("input")); };
+      window.prompt = () => "law.wgsl";
+      document.getElementById("law").click();
+      type("fn force(me: Particle) -> vec4f {\n    return mee.position;\n}\n");
+      document.querySelector("#tabs button").click();
+      type(`${text.value}\n[[force]]\nwgsl = "law.wgsl"\nover = "each"\n`);
+      document.getElementById("editor").requestSubmit();
+    });
+    await page.waitForSelector("#faults:not([hidden])");
+    assert.match(await page.textContent("#faults"), /law\.wgsl:2[\s\S]*mee/, await page.textContent("#faults"));
+    assert.equal(await page.evaluate(async () => (await window.motes.status()).scene), "galaxy");
+    await page.close();
+  },
   async "without WebGPU it says so, and shows a picture"() {
     const page = await visit("scene=galaxy", () => Object.defineProperty(Navigator.prototype, "gpu", { get: () => undefined }));
     await page.waitForSelector("#instead:not([hidden])");
