@@ -167,7 +167,7 @@ const tests = {
     await page.click("#scenes");
     const cards = await until(page, async () => {
       const cards = [...document.querySelectorAll(".card")];
-      cards.forEach((card) => card.scrollIntoView());
+      cards.forEach((card) => { const img = card.querySelector("img"); if (img) img.loading = "eager"; });
       const drawn = cards.filter((card) => card.querySelector("img")?.naturalWidth > 100);
       return cards.length > 10 && drawn.length === cards.length && cards.length;
     });
