@@ -44,19 +44,41 @@ const shown = (text, failed = false) => {
   at("status").classList.toggle("failed", failed);
 };
 
+/** What was edited last, so that it is not lost with the page. */
+const DRAFT = "motes.draft";
+const keep = () => {
+  open.own = true;
+  try {
+    localStorage.setItem(DRAFT, JSON.stringify({ name: open.name, text: open.text, files: Object.fromEntries(open.files) }));
+    hang();
+  } catch {
+    // A browser may keep nothing.
+  }
+};
+const draft = () => {
+  try {
+    return JSON.parse(localStorage.getItem(DRAFT));
+  } catch {
+    return null;
+  }
+};
+const given = ({ name, text, files }) => ({ name: String(name), text: String(text), files: new Map(Object.entries(files ?? {})), own: true });
+
 /** Opens what a link names: `#scene=galaxy&scale=0.5&simulation.dt=0.01`, or `#text=…`. */
 const follow = async () => {
   const link = new URLSearchParams(location.hash.slice(1));
   const next = { name: link.get("scene") ?? "galaxy", text: "", files: new Map(), overrides: [], scale: undefined };
   const paused = link.get("paused") === "1" || (!link.has("paused") && matchMedia("(prefers-reduced-motion: reduce)").matches);
   for (const [key, value] of link) {
-    if (!["scene", "scale", "paused", "text"].includes(key)) next.overrides.push(`${key}=${value}`);
+    if (!["scene", "scale", "paused", "text", "draft"].includes(key)) next.overrides.push(`${key}=${value}`);
   }
   if (link.has("scale")) next.scale = Number(link.get("scale"));
   try {
     if (link.has("text")) {
-      const { text, files } = JSON.parse(await unpacked(link.get("text")));
-      Object.assign(next, { text: String(text), files: new Map(Object.entries(files ?? {})) });
+      Object.assign(next, given({ name: next.name, ...JSON.parse(await unpacked(link.get("text"))) }));
+    } else if (link.has("draft")) {
+      if (!draft()) throw new Error("nothing was edited in this browser");
+      Object.assign(next, given(draft()));
     } else if (scenes.has(next.name)) {
       const { text, files } = scenes.get(next.name);
       Object.assign(next, { text, files: new Map(files) });
@@ -84,6 +106,7 @@ const run = (next, paused = false) => {
       const remarks = await viewer.load(next.name, next.text, [...next.files].flat(), next.overrides, next.scale);
       await viewer.pause(paused);
       say(remarks.join("\n"), true);
+      if (at("editor").hidden) at("canvas").focus({ preventScroll: true });
       document.title = `motes: ${next.name}`;
       at("title").textContent = `${next.name}: ${sentence(about(next.text))}`;
     } catch (why) {
@@ -117,19 +140,22 @@ const edit = () => {
 at("text").oninput = () => {
   if (tab) open.files.set(tab, at("text").value);
   else open.text = at("text").value;
-  open.own = true;
+  keep();
 };
 at("text").onkeydown = (event) => {
   if (event.key === "Enter" && (event.ctrlKey || event.metaKey)) at("editor").requestSubmit();
 };
-at("editor").onsubmit = (event) => {
+at("editor").onsubmit = async (event) => {
   event.preventDefault();
-  run(open);
+  // The way back leads to what ran before.
+  const url = await address();
+  if (url && url !== location.href) history.pushState(null, "", url);
+  await run(open);
 };
 at("edit").onclick = () => toggle(at("editor").hidden);
 at("law").onclick = () => {
   const name = prompt("The name of the file, as the scene names it:", "law.wgsl");
-  if (name) { open.files.set(name, open.files.get(name) ?? ""); tab = name; open.own = true; edit(); }
+  if (name) { open.files.set(name, open.files.get(name) ?? ""); tab = name; keep(); edit(); }
 };
 const download = (name, parts, type) => {
   const link = document.createElement("a");
@@ -140,18 +166,22 @@ const download = (name, parts, type) => {
 };
 at("save").onclick = () => download(tab || `${open.name}.toml`, [at("text").value], "text/plain");
 
-/** The link to what runs. */
-at("link").onclick = async () => {
+/** The link to what is open, if it is not too long for one. */
+const address = async () => {
   const link = new URLSearchParams();
   link.set("scene", open.name);
-  if (open.own || !scenes.has(open.name)) {
+  if (open.own) {
     const words = await packed(JSON.stringify({ text: open.text, files: Object.fromEntries(open.files) }));
-    if (words.length > 8000) return shown("this scene is too long for a link: save it as a file", true);
+    if (words.length > 8000) return undefined;
     link.set("text", words);
   }
   if (open.scale !== undefined) link.set("scale", String(open.scale));
   for (const value of open.overrides) link.set(...value.split(/=(.*)/s, 2));
-  const url = `${location.href.split("#")[0]}#${link}`;
+  return `${location.href.split("#")[0]}#${link}`;
+};
+at("link").onclick = async () => {
+  const url = await address();
+  if (!url) return shown("this scene is too long for a link: save it as a file", true);
   history.replaceState(null, "", url);
   await navigator.clipboard?.writeText(url).then(() => shown("the link is on the clipboard"), () => shown("the link stands in the address"));
 };
@@ -159,18 +189,25 @@ at("link").onclick = async () => {
 /** The gallery. */
 at("scenes").onclick = () => at("gallery").showModal();
 at("close").onclick = () => at("gallery").close();
+const go = (hash) => {
+  if (location.hash === hash) follow();
+  else location.hash = hash;
+};
+const card = (name, title, text, hash) => {
+  const card = document.createElement("a");
+  Object.assign(card, { className: "card", href: hash });
+  const picture = document.createElement("img");
+  Object.assign(picture, { alt: "", loading: "lazy", src: `pictures/${name}.png` });
+  const words = document.createElement("span");
+  words.textContent = sentence(about(text));
+  card.append(picture, Object.assign(document.createElement("strong"), { textContent: title }), words);
+  card.onclick = (event) => { event.preventDefault(); at("gallery").close(); go(hash); };
+  return card;
+};
 const hang = () => {
-  at("cards").replaceChildren(...[...scenes].map(([name, { text }]) => {
-    const card = document.createElement("a");
-    Object.assign(card, { className: "card", href: `#scene=${name}` });
-    const picture = Object.assign(document.createElement("img"), { src: `pictures/${name}.png`, alt: "", loading: "lazy" });
-    picture.onerror = () => picture.replaceWith(Object.assign(document.createElement("div"), { className: "blank" }));
-    const words = document.createElement("span");
-    words.textContent = sentence(about(text));
-    card.append(picture, Object.assign(document.createElement("strong"), { textContent: name }), words);
-    card.onclick = () => { at("gallery").close(); if (location.hash === `#scene=${name}`) follow(); };
-    return card;
-  }));
+  const last = draft();
+  const mine = last ? [card(scenes.has(last.name) ? last.name : "galaxy", `${last.name}, as you edited it last`, last.text, "#draft=1")] : [];
+  at("cards").replaceChildren(...mine, ...[...scenes].map(([name, { text }]) => card(name, name, text, `#scene=${name}`)));
 };
 
 /** Files that are dropped: a scene is run, others stand beside it. */
@@ -187,7 +224,20 @@ document.addEventListener("drop", async (event) => {
   }
   toggle(true);
   await run(next);
+  keep();
 });
+
+/** The keys of the browser stay its own: reload, find, address, full screen. */
+document.addEventListener("keydown", (event) => {
+  if (event.target === at("canvas") && (event.ctrlKey || event.metaKey || event.altKey || /^F\d+$/.test(event.key))) event.stopPropagation();
+}, true);
+/** A fault of the program itself, such as a lack of memory. */
+const broken = (event) => {
+  const why = event.reason?.message ?? event.reason ?? event.message;
+  shown(`the program failed: ${why}. Load the page again; a scene with fewer particles needs less memory.`, true);
+};
+window.addEventListener("error", broken);
+window.addEventListener("unhandledrejection", broken);
 
 /** What is shown where nothing can run. */
 const without = () => {
@@ -215,7 +265,7 @@ const watch = async () => {
       shown(`${status.scene} · step ${status.steps}${status.message ? ` · ${status.message}` : ""}`);
     }
     if (status.picture) download(status.picture, [status.png], "image/png");
-    if (status.asked) location.hash = `#scene=${status.asked}`;
+    if (status.asked) go(`#scene=${status.asked}`);
     status.free();
   } catch (why) {
     shown(`stopped: ${why.message}`, true);

@@ -177,6 +177,55 @@ const tests = {
     assert.match(await page.textContent("#title"), /^figure_eight: /);
     await page.close();
   },
+  async "what was edited is not lost: by the way back, by the gallery, and when the page is loaded again"() {
+    const page = await visit("scene=galaxy&scale=0.02&paused=1");
+    await runs(page, "galaxy");
+    await page.click("#edit");
+    const edited = "# Four stones.\n[simulation]\ndt = 0.01\nsteps = 10\n[[particles]]\nshape = \"sphere\"\ncount = 4\n";
+    await page.evaluate(() => { location.hash = "#scene=kepler&paused=1"; });
+    await runs(page, "kepler");
+    await page.fill("#text", edited);
+    await page.press("#text", "Control+Enter");
+    await until(page, () => document.getElementById("title").textContent === "kepler: Four stones.");
+    await page.evaluate(() => { location.hash = "#scene=throw&paused=1"; });
+    await runs(page, "throw");
+    await page.goBack();
+    await until(page, () => document.getElementById("title").textContent === "kepler: Four stones.");
+    assert.equal(await page.inputValue("#text"), edited);
+    await page.goBack();
+    await until(page, () => document.getElementById("title").textContent.startsWith("kepler: Two bodies"));
+    // Text that was never run, in a new visit.
+    await page.fill("#text", edited.replace("Four", "Five"));
+    await page.reload();
+    await runs(page, "kepler");
+    await page.click("#scenes");
+    assert.match(await page.textContent(".card"), /kepler, as you edited it last\s*Five stones/);
+    await page.click(".card");
+    await until(page, () => document.getElementById("title").textContent === "kepler: Five stones.");
+    await page.close();
+  },
+  async "keys are those of the viewer, and of the browser"() {
+    const page = await visit("scene=galaxy&scale=0.02");
+    await runs(page, "galaxy");
+    await page.waitForTimeout(1000);
+    assert.equal(await page.evaluate(() => document.activeElement.id), "canvas");
+    await page.keyboard.press("Space");
+    await page.waitForTimeout(1500);
+    const still = await steps(page);
+    await page.waitForTimeout(1000);
+    assert.equal(await steps(page), still, "Space stops the run");
+    await page.keyboard.press(".");
+    await until(page, async (still) => (await window.motes.status()).steps === still + 1, still);
+    const taken = await page.evaluate(() => {
+      let taken = 0;
+      const press = (key, more) => document.getElementById("canvas").dispatchEvent(new KeyboardEvent("keydown", { key, bubbles: true, cancelable: true, ...more }));
+      // An event whose default is prevented is taken from the browser.
+      for (const [key, more] of [["r", { ctrlKey: true }], ["F5", {}], ["l", { ctrlKey: true }]]) taken += press(key, more) ? 0 : 1;
+      return taken;
+    });
+    assert.equal(taken, 0, "the browser keeps its keys");
+    await page.close();
+  },
   async "laws that do not compile are said"() {
     const page = await visit("scene=galaxy&scale=0.02&paused=1");
     await runs(page, "galaxy");
