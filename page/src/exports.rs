@@ -38,7 +38,7 @@ pub struct Status {
     pub failed: Option<String>,
     /// A scene that the panel asks for.
     pub asked: Option<String>,
-    /// A picture that was taken: its name, and its PNG.
+    /// A picture or a film that was taken: its name.
     pub picture: Option<String>,
     /// Its bytes.
     pub png: Vec<u8>,
@@ -107,7 +107,7 @@ impl Viewer {
         let (scene, steps, message) = viewer.status();
         let (asked, taken) = (viewer.asked(), viewer.taken());
         let (picture, png) = match taken {
-            Some(taken) => (Some(taken.name.clone()), taken.image.png()?),
+            Some(taken) => (Some(taken.name), taken.png),
             None => (None, Vec::new()),
         };
         #[expect(clippy::cast_precision_loss, reason = "steps are fewer than 2^32")]

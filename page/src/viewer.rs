@@ -66,7 +66,8 @@ impl Viewer {
         let view = View::new(&scene, setup, make).await.map_err(words)?;
         self.found.faults.check().map_err(words)?;
         self.name.clone_from(&scene.name);
-        self.view = Some(view);
+        let film = self.view.replace(view).map(|mut view| view.end()).transpose().map_err(words)?.flatten();
+        self.taken = film.or(self.taken.take());
         Ok(remarks)
     }
     /// Whether nothing moves, so that no frame is due.

@@ -134,7 +134,7 @@ pub struct ViewArgs {
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
     pub frames: Option<u64>,
     /// Draw without a window, save the last frame here as a PNG, and end
-    #[arg(long, value_name = "FILE", requires = "frames")]
+    #[arg(long, value_name = "FILE", requires = "frames", value_parser = png)]
     pub screenshot: Option<PathBuf>,
     /// The size of the window, or of the screenshot [pixels]
     #[arg(long, value_name = "WIDTHxHEIGHT", default_value = "1280x800", value_parser = size)]
@@ -387,6 +387,13 @@ pub fn positive(text: &str) -> Result<f64, String> {
         Ok(x) if x > 0.0 && x < 1e6 => Ok(x),
         _ => Err("it must be a number above 0 and below 1e6".to_owned()),
     }
+}
+
+/// The file of a picture, which is a PNG whatever it is called.
+fn png(text: &str) -> Result<PathBuf, String> {
+    let file = PathBuf::from(text);
+    let is_png = file.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("png"));
+    if is_png { Ok(file) } else { Err("the picture is a PNG: give it a name that ends in .png".to_owned()) }
 }
 
 /// The size of a picture, as in 1280x800.

@@ -16,7 +16,8 @@ use crate::error::Error;
 pub fn write_apng(path: &Path, frames: &[PathBuf], rate: u16) -> Result<(), Error> {
     let mut unread = None;
     let written = atomically(path, |out| {
-        film(out, frames, rate).map_err(|fault| {
+        let count = u32::try_from(frames.len()).map_err(io::Error::other)?;
+        film(out, count, frames.iter().map(|file| read(file)), rate).map_err(|fault| {
             let message = fault.error.to_string();
             unread = fault.frame;
             io::Error::other(message)
@@ -26,6 +27,18 @@ pub fn write_apng(path: &Path, frames: &[PathBuf], rate: u16) -> Result<(), Erro
         (Err(Error::Output { message, .. }), Some(file)) => Err(Error::Output { file, message }),
         (written, _) => written,
     }
+}
+
+/// The same of PNG files in memory.
+///
+/// # Errors
+/// When there is none, one is no such picture, or their sizes differ.
+pub fn joined(frames: &[Vec<u8>], rate: u16) -> io::Result<Vec<u8>> {
+    let mut out = Vec::new();
+    let count = u32::try_from(frames.len()).map_err(io::Error::other)?;
+    let pictures = frames.iter().map(|bytes| decoded(io::Cursor::new(bytes)).map_err(Fault::from));
+    film(&mut out, count, pictures, rate).map_err(|fault| fault.error)?;
+    Ok(out)
 }
 
 /// An error, and its frame, if it belongs to one.
@@ -40,10 +53,14 @@ impl<E: Into<io::Error>> From<E> for Fault {
     }
 }
 
-fn film(out: impl Write, frames: &[PathBuf], rate: u16) -> Result<(), Fault> {
-    let count = u32::try_from(frames.len()).map_err(io::Error::other)?;
-    let Some(first) = frames.first() else { return Err(io::Error::other("a film needs a picture or more").into()) };
-    let mut last = read(first)?;
+fn film(
+    out: impl Write,
+    count: u32,
+    frames: impl IntoIterator<Item = Result<Pixels, Fault>>,
+    rate: u16,
+) -> Result<(), Fault> {
+    let mut frames = frames.into_iter();
+    let mut last = frames.next().ok_or_else(|| io::Error::other("a film needs a picture or more"))??;
     let mut encoder = png::Encoder::new(out, last.width, last.height);
     encoder.set_color(png::ColorType::Rgba);
     encoder.set_depth(png::BitDepth::Eight);
@@ -54,12 +71,12 @@ fn film(out: impl Write, frames: &[PathBuf], rate: u16) -> Result<(), Fault> {
     encoder.set_dispose_op(png::DisposeOp::None)?;
     let mut writer = encoder.write_header()?;
     writer.write_image_data(&last.rgb.chunks_exact(3).flat_map(|p| [p[0], p[1], p[2], 255]).collect::<Vec<_>>())?;
-    for file in &frames[1..] {
-        let next = read(file)?;
+    for next in frames {
+        let next = next?;
         if (next.width, next.height) != (last.width, last.height) {
             let (width, height) = (next.width, next.height);
             let text = format!("{width} × {height} pixels in a film of {} × {}", last.width, last.height);
-            return Err(Fault { error: io::Error::other(text), frame: Some(file.clone()) });
+            return Err(Fault { error: io::Error::other(text), frame: next.file });
         }
         let pixels = last.rgb.chunks_exact(3).zip(next.rgb.chunks_exact(3));
         // A transparent pixel leaves the previous one unchanged.
@@ -71,17 +88,21 @@ fn film(out: impl Write, frames: &[PathBuf], rate: u16) -> Result<(), Fault> {
 }
 
 struct Pixels {
+    /// The file that it was read from, if it was.
+    file: Option<PathBuf>,
     width: u32,
     height: u32,
     rgb: Vec<u8>,
 }
 
 fn read(file: &Path) -> Result<Pixels, Fault> {
-    decoded(file).map_err(|error| Fault { error, frame: Some(file.to_owned()) })
+    let pixels = File::open(file).and_then(|bytes| decoded(BufReader::new(bytes)));
+    let pixels = pixels.map_err(|error| Fault { error, frame: Some(file.to_owned()) })?;
+    Ok(Pixels { file: Some(file.to_owned()), ..pixels })
 }
 
-fn decoded(file: &Path) -> io::Result<Pixels> {
-    let mut reader = png::Decoder::new(BufReader::new(File::open(file)?)).read_info()?;
+fn decoded(bytes: impl io::BufRead + io::Seek) -> io::Result<Pixels> {
+    let mut reader = png::Decoder::new(bytes).read_info()?;
     let size = reader.output_buffer_size().ok_or_else(|| io::Error::other("a picture larger than memory"))?;
     let mut rgb = vec![0; size];
     let info = reader.next_frame(&mut rgb)?;
@@ -89,5 +110,5 @@ fn decoded(file: &Path) -> io::Result<Pixels> {
         return Err(io::Error::other("not a picture of three bytes for each pixel"));
     }
     rgb.truncate(info.buffer_size());
-    Ok(Pixels { width: info.width, height: info.height, rgb })
+    Ok(Pixels { file: None, width: info.width, height: info.height, rgb })
 }

@@ -47,6 +47,8 @@ pub enum Action {
     Help,
     /// Save a picture.
     Take,
+    /// Begin a film, or end and save it.
+    Record,
     /// Open another scene.
     Open(String),
 }

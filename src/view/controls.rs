@@ -161,6 +161,10 @@ fn looks<B: Backend>(view: &mut View<B>, ui: &mut Ui) {
         if ui.button("Save picture").on_hover_text("P").clicked() {
             view.actions.push(Action::Take);
         }
+        let film = if view.recording.is_some() { "End film" } else { "Film" };
+        if ui.button(film).on_hover_text("V: each picture of a step becomes one of a film").clicked() {
+            view.actions.push(Action::Record);
+        }
     });
 }
 

@@ -17,6 +17,7 @@ pub const KEYS: &[(&str, &str)] = &[
     ("← → ↑ ↓", "turn the camera"),
     ("+ −", "closer, farther"),
     ("P", "save a picture"),
+    ("V", "record a film, and save it"),
     ("H", "hide the panel"),
     ("?", "this list"),
     ("click", "choose a particle"),
@@ -66,6 +67,7 @@ pub fn read(context: &Context, actions: &mut Vec<Action>) {
         }
         on(Key::Minus, Action::Zoom { factor: 1.0 / CLOSER, across: 0.0, up: 0.0 });
         on(Key::P, Action::Take);
+        on(Key::V, Action::Record);
         on(Key::H, Action::Panel);
         on(Key::Questionmark, Action::Help);
         let views = [

@@ -7,6 +7,7 @@ mod energies;
 mod keyboard;
 mod orbit;
 mod pace;
+mod recording;
 mod seldom;
 mod sliders;
 mod stage;
@@ -24,6 +25,7 @@ use action::Action;
 use chosen::Chosen;
 use energies::Energies;
 use pace::Pace;
+use recording::Recording;
 use stage::Stage;
 
 /// Makes a simulation of a setup on the shell's device.
@@ -32,10 +34,10 @@ pub type Make<B> = Box<dyn Fn(&Setup) -> Result<Simulation<B>, Error>>;
 /// The field with the pixels of the picture.
 pub const PICTURE: Field<u32> = PIXELS;
 
-/// A picture that was taken, and the name of its file.
+/// A picture or a film that was taken, and the name of its file.
 pub struct Taken {
-    /// The picture.
-    pub image: Image,
+    /// A PNG, which is animated if it is a film.
+    pub png: Vec<u8>,
     /// A name made of the scene and the step.
     pub name: String,
 }
@@ -60,6 +62,7 @@ pub struct View<B: Backend> {
     /// Whether a fault has stopped the run.
     faulty: bool,
     taken: Option<Taken>,
+    recording: Option<Recording>,
     /// The scene that the shell is asked to open.
     wanted: Option<String>,
     shown: bool,
@@ -86,6 +89,7 @@ impl<B: Backend> View<B> {
             message: String::new(),
             faulty: false,
             taken: None,
+            recording: None,
             wanted: None,
             shown: false,
         })
@@ -131,7 +135,7 @@ impl<B: Backend> View<B> {
     pub fn message(&self) -> &str {
         &self.message
     }
-    /// A picture that was asked for, once.
+    /// A picture or a film that was asked for, once.
     pub fn take(&mut self) -> Option<Taken> {
         self.taken.take()
     }
@@ -172,8 +176,10 @@ impl<B: Backend> View<B> {
         }
         self.find().await?;
         let begun = Instant::now();
-        self.stage.draw(self.size, self.paused).await?;
+        let size = self.recording.as_ref().map_or(self.size, |recording| recording.size);
+        self.stage.draw(size, self.paused || self.recording.is_some()).await?;
         self.pace.drawn(begun.elapsed());
+        self.record().await?;
         self.shown = true;
         Ok(())
     }
@@ -189,6 +195,41 @@ impl<B: Backend> View<B> {
         if let (true, Some(center)) = (chosen.follow, chosen.position) {
             self.stage.camera(|camera| Camera { center, ..camera });
         }
+        Ok(())
+    }
+    /// Adds the picture to the film, if there is one.
+    async fn record(&mut self) -> Result<(), Error> {
+        let step = self.stage.simulation.steps();
+        if !self.recording.as_ref().is_some_and(|recording| recording.wants(step)) {
+            return Ok(());
+        }
+        let ([width, height], rgba) = (self.size(), self.pixels().await?);
+        let Some(recording) = &mut self.recording else { return Ok(()) };
+        let room = recording.add(step, &Image { width, height, rgba, outside: 0, broken: 0 })?;
+        self.message = recording.words();
+        if !room {
+            self.end_recording()?;
+            self.message = "the film is as long as memory allows, and is saved".to_owned();
+        }
+        Ok(())
+    }
+    /// The film that is being recorded, when the view ends.
+    ///
+    /// # Errors
+    /// When the film cannot be made.
+    pub fn end(&mut self) -> Result<Option<Taken>, Error> {
+        self.end_recording()?;
+        Ok(self.take())
+    }
+    /// The film becomes a file.
+    fn end_recording(&mut self) -> Result<(), Error> {
+        let Some(recording) = self.recording.take() else { return Ok(()) };
+        self.message.clear();
+        if recording.is_empty() {
+            return Ok(());
+        }
+        let name = format!("{}_{:06}_film.png", self.stage.name, self.stage.simulation.steps());
+        self.taken = Some(Taken { png: recording.film()?, name });
         Ok(())
     }
     async fn choose(&mut self, across: f64, up: f64) -> Result<(), Error> {
@@ -267,8 +308,10 @@ impl<B: Backend> View<B> {
             Action::Help => self.help = !self.help,
             Action::Take => {
                 let (image, name) = self.stage.take().await?;
-                self.taken = Some(Taken { image, name });
+                self.taken = Some(Taken { png: image.png()?, name });
             }
+            Action::Record if self.recording.is_some() => self.end_recording()?,
+            Action::Record => self.recording = Some(Recording::new(self.size)),
             Action::Open(name) => self.wanted = Some(name),
         }
         Ok(())

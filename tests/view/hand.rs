@@ -76,6 +76,12 @@ impl Hand {
     pub fn steps(&mut self) -> u64 {
         self.view.simulation().steps()
     }
+    pub fn taken(&mut self) -> Option<motes::view::Taken> {
+        self.view.take()
+    }
+    pub fn end(&mut self) -> Option<motes::view::Taken> {
+        self.view.end().expect("a film")
+    }
     pub fn message(&self) -> &str {
         self.view.message()
     }

@@ -52,6 +52,57 @@ fn frames_without_a_window_show_the_run_and_the_panel() {
 }
 
 #[test]
+fn screenshots_are_png_files_by_their_names() {
+    let run = Command::new(BIN).args(["view", "galaxy", "--frames", "1", "--screenshot", "a.jpg"]).output();
+    let run = run.expect("the program");
+    let said = String::from_utf8_lossy(&run.stderr).into_owned();
+    assert_eq!(run.status.code(), Some(2), "{said}");
+    assert!(said.contains("a name that ends in .png"), "{said}");
+}
+
+#[test]
+fn a_film_has_a_picture_of_each_step() {
+    let mut hand = Hand::on("plummer", &["particles.0.count=500"]);
+    hand.frames(2);
+    hand.key(Key::V, Modifiers::NONE);
+    // The key is pressed in one frame and released in the next.
+    let first = hand.steps() - 1;
+    hand.until(first + 7);
+    hand.key(Key::Space, Modifiers::NONE);
+    let last = hand.steps();
+    hand.frames(5);
+    assert!(hand.message().starts_with("recording: "), "{}", hand.message());
+    hand.key(Key::V, Modifiers::NONE);
+    let film = hand.taken().expect("a film");
+    assert_eq!(film.name, format!("plummer_{last:06}_film.png"));
+    let mut reader = png::Decoder::new(std::io::Cursor::new(&film.png)).read_info().expect("a PNG");
+    let animation = *reader.info().animation_control().expect("an animation");
+    assert_eq!(
+        u64::from(animation.num_frames),
+        last - first + 1,
+        "a picture of each step, and none where it stands still"
+    );
+    assert_eq!([reader.info().width, reader.info().height], hand.size());
+    let mut pixels = vec![0; reader.output_buffer_size().expect("a size")];
+    for picture in 0..animation.num_frames {
+        let info = reader.next_frame(&mut pixels).expect("a picture");
+        // From the second on, what has not changed is transparent.
+        let changed = pixels[..info.buffer_size()].chunks_exact(4).filter(|pixel| pixel[3] > 0).count();
+        let all = info.buffer_size() / 4;
+        assert!(
+            if picture == 0 { changed == all } else { (1..all).contains(&changed) },
+            "{picture}: {changed} of {all}"
+        );
+    }
+    assert!(hand.taken().is_none(), "it is taken once");
+    // A scene that is opened meanwhile ends a film.
+    hand.key(Key::Space, Modifiers::NONE);
+    hand.key(Key::V, Modifiers::NONE);
+    hand.frames(2);
+    assert!(hand.end().is_some_and(|film| film.png.len() > 1000));
+}
+
+#[test]
 fn keys_pause_step_and_go_back() {
     let mut hand = Hand::on("plummer", &["particles.0.count=500"]);
     hand.frames(3);

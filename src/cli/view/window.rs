@@ -1,5 +1,6 @@
 //! The window.
 
+use std::io::Write as _;
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::{Instant, SystemTime};
@@ -74,7 +75,10 @@ impl ApplicationHandler for App {
             shell.window.request_redraw();
         }
         let done = match event {
-            WindowEvent::CloseRequested => return self.end(events, Ok(())),
+            WindowEvent::CloseRequested => {
+                let film = shell.view.end().and_then(|film| film.as_ref().map(save).transpose());
+                return self.end(events, film.map(|_| ()).map_err(Failure::from));
+            }
             WindowEvent::Resized(size) => shell.surface.resize(size.into()).map_err(Failure::from),
             WindowEvent::DroppedFile(path) => {
                 shell.open_scene(&self.args, &path.to_string_lossy());
@@ -132,7 +136,8 @@ impl Shell {
         });
         match opened {
             Ok((view, files, title)) => {
-                self.view = view;
+                let film = std::mem::replace(&mut self.view, view).end();
+                self.keep(film);
                 self.files = Files::of(&files, name, begun);
                 self.window.set_title(&format!("motes: {title}"));
             }
@@ -143,6 +148,15 @@ impl Shell {
             }
         }
         self.window.request_redraw();
+    }
+    /// Saves what was taken, and says where.
+    fn keep(&mut self, taken: Result<Option<Taken>, Error>) {
+        let saved = taken.and_then(|taken| taken.as_ref().map(save).transpose());
+        match saved {
+            Ok(None) => (),
+            Ok(Some(file)) => self.view.say(format!("saved {}", file.display())),
+            Err(why) => self.view.say(why.to_string()),
+        }
     }
     /// One frame: input, controls, steps, picture.
     fn frame(&mut self, args: &ViewArgs) -> Result<(), Failure> {
@@ -157,13 +171,11 @@ impl Shell {
         let soon = output.viewport_output.values().any(|viewport| viewport.repaint_delay < LOOK);
         let controls = Controls::of(&self.context, output);
         block_on(self.view.advance())?;
+        let taken = self.view.take();
+        self.keep(Ok(taken));
         if let Some(name) = self.view.wanted() {
             self.open_scene(args, &name);
             block_on(self.view.advance())?;
-        }
-        if let Some(taken) = self.view.take() {
-            self.view
-                .say(save(&taken).map_or_else(|error| error.to_string(), |file| format!("saved {}", file.display())));
         }
         let size = self.view.size();
         if let Some(pixels) = self.view.simulation().buffer(PICTURE) {
@@ -190,7 +202,7 @@ fn save(taken: &Taken) -> Result<PathBuf, Error> {
     let stem = taken.name.trim_end_matches(".png");
     let names = std::iter::once(taken.name.clone()).chain((2..).map(|number| format!("{stem}_{number}.png")));
     let file = names.map(PathBuf::from).find(|name| !name.exists()).unwrap_or_default();
-    taken.image.save(&file)?;
+    motes::formats::atomically(&file, |out| out.write_all(&taken.png))?;
     Ok(file)
 }
 
