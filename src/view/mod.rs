@@ -209,7 +209,7 @@ impl<B: Backend> View<B> {
         self.message = recording.words();
         if !room {
             self.end_recording()?;
-            self.message = "the film is as long as memory allows, and is saved".to_owned();
+            self.say("the film is as long as memory allows, and is saved");
         }
         Ok(())
     }
