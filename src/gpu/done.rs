@@ -26,7 +26,10 @@ pub struct Done {
 
 impl Done {
     /// For all work submitted to a queue so far, of which `index` is the last submission.
-    #[cfg_attr(target_arch = "wasm32", expect(unused_variables, reason = "a browser knows when it is complete"))]
+    #[cfg_attr(
+        target_arch = "wasm32",
+        expect(unused_variables, clippy::needless_pass_by_value, reason = "a browser knows when it is complete")
+    )]
     pub fn of(queue: &wgpu::Queue, index: wgpu::SubmissionIndex) -> Self {
         let event = Arc::new(ManualResetEvent::new(false));
         let set = event.clone();
