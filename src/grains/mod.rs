@@ -11,11 +11,13 @@
 //! * history begins with zeros when a contact begins. What springs hold when it ends becomes heat in the step after, in which spheres are
 //!   within a sixteenth of the reduced radius of each other: what parts by more in a step keeps this out of the sum of energies.
 
+mod ball;
 mod material;
 mod pairs;
 mod touch;
 mod wall;
 
+pub use ball::{inside, volume};
 pub(crate) use material::{
     FRICTION, MODEL, NAMES, PAIRS, POISSON, RESTITUTION, ROLLING, ROLLING_DAMPING, ROLLING_MODEL, STIFFNESS,
     TANGENTIAL_DAMPING, TANGENTIAL_STIFFNESS, TORSION, YOUNG, check, mixed,

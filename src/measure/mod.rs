@@ -1,5 +1,6 @@
 //! Measures of a state, in f64: a register, a file for each. A run writes a table of each measure that it takes.
 
+mod region;
 mod series;
 
 use std::fmt::{self, Debug};
@@ -85,6 +86,7 @@ register! {
     energy
     flock
     granular
+    packing
     fluid
     population
     thermo

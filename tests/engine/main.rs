@@ -14,6 +14,7 @@ mod library;
 mod measures;
 mod neighbors;
 mod own_laws;
+mod packing;
 mod primitives;
 mod references;
 mod repeat;

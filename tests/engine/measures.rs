@@ -29,7 +29,7 @@ fn setup(state: &State, bounds: Bounds) -> Setup {
 const VIRIAL: [f64; 6] = [0.5, 0.25, -2.0, 4.0, -0.125, 1.0];
 
 /// The rows of a measure of a state, whose potential energies are 0.
-fn rows(name: &str, state: &State, bounds: Bounds, sets: &[(&'static str, Value)]) -> Result<Vec<Row>, Error> {
+pub fn rows(name: &str, state: &State, bounds: Bounds, sets: &[(&'static str, Value)]) -> Result<Vec<Row>, Error> {
     let measure = measure(name).expect("a measure");
     let defaults = Settings::defaults(measure.keys);
     let settings = sets.iter().fold(defaults, |all, (key, value)| all.with(key, value.clone()));
@@ -47,7 +47,7 @@ fn rows(name: &str, state: &State, bounds: Bounds, sets: &[(&'static str, Value)
     series.take(&moment)
 }
 
-fn numbers(rows: &[Row], cell: usize) -> Vec<f64> {
+pub fn numbers(rows: &[Row], cell: usize) -> Vec<f64> {
     let number = |row: &Row| match row[cell] {
         Cell::Number(x) => x,
         Cell::Whole(n) => n as f64,
@@ -56,12 +56,12 @@ fn numbers(rows: &[Row], cell: usize) -> Vec<f64> {
     rows.iter().map(number).collect()
 }
 
-fn periodic(size: DVec3) -> Bounds {
+pub fn periodic(size: DVec3) -> Bounds {
     Bounds::new(DVec3::ZERO, size, Side::Periodic)
 }
 
 /// A face-centred cubic crystal of four particles to a cell of unit size, in species 0 and 1 by layers.
-fn crystal(cells: usize) -> State {
+pub fn crystal(cells: usize) -> State {
     let mut state = State::default();
     let basis = [[0.0, 0.0, 0.0], [0.5, 0.5, 0.0], [0.5, 0.0, 0.5], [0.0, 0.5, 0.5]];
     for k in 0..cells.pow(3) {
