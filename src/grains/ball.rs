@@ -123,7 +123,8 @@ mod tests {
             let mut worst = 0.0_f64;
             for cell in 0..27_usize {
                 let of = |side: usize| {
-                    DVec3::from_array([0, 1, 2].map(|axis| cuts[axis][cell / 3_usize.pow(axis as u32) % 3 + side]))
+                    let at = [cell % 3, cell / 3 % 3, cell / 9].map(|k| k + side);
+                    DVec3::new(cuts[0][at[0]], cuts[1][at[1]], cuts[2][at[2]])
                 };
                 let (low, high) = (of(0), of(1));
                 let part = inside(radius, low, high, 3);
