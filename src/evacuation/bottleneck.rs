@@ -174,28 +174,55 @@ fn narrowest(
     ways: &Ways,
     from: usize,
     end: usize,
-    known: &mut BTreeMap<usize, Option<Passage>>,
+    known: &mut BTreeMap<usize, Known>,
 ) -> Option<Way> {
     let last = ways.of(end)?;
     let (mut k, mut best, mut widest): (usize, Option<Passage>, f64) = (from, None, 0.0);
+    let mut steps: Vec<[DVec2; 2]> = Vec::new();
+    let mut slanting: Vec<Passage> = Vec::new();
+    // The first of several that are as narrow, to a hundredth.
+    let narrower = |best: Option<Passage>, one: Passage| match best {
+        Some(best) if one.width() >= 0.99 * best.width() => Some(best),
+        _ => Some(one),
+    };
     loop {
         let behind = last - ways.of(k)?;
         if behind > AROUND[1] {
             break;
         }
-        let here = *known.entry(k).or_insert_with(|| Passage::through(plan, ways.centre(k), ways.heading(k)));
+        let here = known.entry(k).or_insert_with(|| Known::new(plan, ways.centre(k), ways.heading(k)));
         if behind <= 0.0 {
-            widest = widest.max(here.map_or(0.0, |one| one.width()));
+            widest = widest.max(here.across.map_or(0.0, |one| one.width()));
         }
         if behind >= -AROUND[0] {
-            // The first of several that are as narrow, to a hundredth.
-            let is_better = |one: &Passage| best.is_none_or(|best| one.width() < 0.99 * best.width());
-            best = here.filter(is_better).or(best);
+            best = here.across.map_or(best, |one| narrower(best, one));
+            slanting.extend(here.slanting.iter().flatten());
         }
         let Some(next) = ways.down(k) else { break };
+        steps.push([ways.centre(k), ways.centre(next)]);
         k = next;
     }
+    let is_crossed = |one: &Passage| steps.iter().any(|step| one.crossed(*step).is_some());
+    best = slanting.into_iter().filter(is_crossed).fold(best, narrower);
     best.map(|passage| Way { passage, widest })
+}
+
+/// The passages at a cell.
+struct Known {
+    /// The one across the direction of motion.
+    across: Option<Passage>,
+    /// Those for directions turned by 45° and 90°: a way that turns in a door crosses it at a slant. They count where the way crosses them.
+    slanting: [Option<Passage>; 3],
+}
+
+impl Known {
+    fn new(plan: &FloorPlan, x: DVec2, heading: DVec2) -> Self {
+        let turned = [(1.0, 1.0), (1.0, -1.0), (0.0, 1.0)].map(|(x, y)| DVec2::new(x, y).normalize().rotate(heading));
+        Self {
+            across: Passage::through(plan, x, heading),
+            slanting: turned.map(|heading| Passage::through(plan, x, heading)),
+        }
+    }
 }
 
 /// The times at which pedestrians cross a passage for the first time, in order.

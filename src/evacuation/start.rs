@@ -1,5 +1,6 @@
 //! The scene of an evacuation: pedestrians at random on the floor of a plan.
 
+use std::collections::HashMap;
 use std::fmt::Write as _;
 
 use glam::DVec2;
@@ -25,6 +26,8 @@ const WANDER: f64 = 0.4;
 const SAMPLE: f64 = 0.25;
 /// The most others that one may touch: π / asin(0.25 / 0.6) = 7.3 of the smallest radius around one of the largest.
 const CONTACTS: f64 = 7.0;
+/// The most steps between two samples: those of a mean speed of some 60 m/s.
+const MOST_STEPS: f64 = 10_000.0;
 /// The largest step that friction between the fastest allows is divided by this.
 const SAFE: f64 = 0.97;
 
@@ -67,15 +70,21 @@ impl Start {
 /// # Errors
 /// [`Error::Scene`] where there is no room for so many.
 pub fn scene(plan: &FloorPlan, (wkt, about): (&str, &str), crowd: &Crowd, limit: f64) -> Result<Start, Error> {
-    let bodies = bodies(plan, crowd)?;
     // The overlap g of two that meet head on at the largest speed: 2 κ g / m times dt is 4 / CONTACTS at most, as `check` asks.
     let fastest = SPREAD[2] * crowd.speed;
     let press = Press::of(&Settings::defaults(&[REPULSION, DECAY, STIFFNESS, FRICTION]));
     let overlap = fastest * (2.0 * MASS / press.stiffness).sqrt();
     let longest = SAFE * 2.0 / CONTACTS * MASS / (press.friction * overlap);
     let parts = (SAMPLE / longest).ceil().max(1.0);
-    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a number of steps")]
+    if parts > MOST_STEPS {
+        return Err(Error::Scene(format!(
+            "pedestrians with a mean speed of {} m/s need steps of {longest:.1e} s, of which {SAMPLE} s has more than {MOST_STEPS}: choose a lower --speed (walking is 1.34)",
+            crowd.speed
+        )));
+    }
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "checked to be few")]
     let every = parts as u32;
+    let bodies = bodies(plan, crowd)?;
     let (low, high) = plan.extent();
     let (size, low) = (high - low + 2.0, low - 1.0);
     let names: Vec<String> = plan.exits().iter().map(|exit| format!("{:?}", exit.name)).collect();
@@ -100,6 +109,27 @@ pub fn scene(plan: &FloorPlan, (wkt, about): (&str, &str), crowd: &Crowd, limit:
     Ok(Start { text, every, limit })
 }
 
+/// Discs, by squares whose side is the largest diameter.
+#[derive(Default)]
+struct Placed(HashMap<(i64, i64), Vec<(DVec2, f64)>>);
+
+impl Placed {
+    #[expect(clippy::cast_possible_truncation, reason = "plans are small against the numbers of squares")]
+    fn square(x: DVec2) -> (i64, i64) {
+        let place = (x / (2.0 * RADII[1])).floor();
+        (place.x as i64, place.y as i64)
+    }
+    fn leave_free(&self, x: DVec2, radius: f64) -> bool {
+        let (column, row) = Self::square(x);
+        let near = (-1..=1).flat_map(|i| (-1..=1).map(move |j| (column + i, row + j)));
+        let mut discs = near.filter_map(|square| self.0.get(&square)).flatten();
+        discs.all(|(y, other)| x.distance(*y) >= radius + other)
+    }
+    fn push(&mut self, x: DVec2, radius: f64) {
+        self.0.entry(Self::square(x)).or_default().push((x, radius));
+    }
+}
+
 /// The pedestrians, a line each.
 fn bodies(plan: &FloorPlan, crowd: &Crowd) -> Result<String, Error> {
     let (low, high) = plan.extent();
@@ -109,13 +139,13 @@ fn bodies(plan: &FloorPlan, crowd: &Crowd) -> Result<String, Error> {
     let whole: f64 = sizes.iter().sum();
     let (cells, mut random) = (plan.cells(), Random::new(crowd.seed));
     let steps = cells.steps();
-    let mut placed: Vec<(DVec2, f64)> = Vec::new();
+    let mut placed = Placed::default();
     let mut text = String::new();
     for i in 0..crowd.people {
         let radius = random.between(RADII[0], RADII[1]);
         let free = |x: DVec2| {
             let apart = |exit: &crate::floor_plan::Exit| exit.distance(x) > exit.reach + radius;
-            placed.iter().all(|(y, other)| x.distance(*y) >= radius + other)
+            placed.leave_free(x, radius)
                 && plan.holds(x)
                 && !crowd.outside.iter().any(|landing| landing.holds(x))
                 && plan.exits().iter().all(apart)
@@ -145,7 +175,7 @@ fn bodies(plan: &FloorPlan, crowd: &Crowd) -> Result<String, Error> {
         while !(least..=most).contains(&speed) {
             speed = crowd.speed + deviation * random.normal();
         }
-        placed.push((x, radius));
+        placed.push(x, radius);
         // Writing to a String cannot fail.
         let _ = writeln!(
             text,

@@ -90,6 +90,20 @@ fn a_door_with_its_exit_close_behind_has_its_width() {
     }
 }
 
+/// A door into the side of a wide corridor: the way turns within the door and crosses it at a slant, and what is named is the door.
+#[test]
+fn a_door_into_the_side_of_a_corridor_is_named() {
+    let plan = "GEOMETRYCOLLECTION (POLYGON ((0 0, 8 0, 8 3.4, 8.2 3.4, 8.2 -3, 11.2 -3, 11.2 8, 8.2 8, 8.2 4.6, 8 4.6, 8 8, 0 8, 0 0)), \
+                LINESTRING (8.3 -2.5, 11.1 -2.5))";
+    for seed in [1, 2] {
+        let (report, _folder) = report(plan, seed);
+        let named = &report["bottlenecks"][0];
+        let [x, y, width] = [&named["position"][0], &named["position"][1], &named["width"]].map(number);
+        assert!((x - 8.1).hypot(y - 4.0) < 0.2 && (width - 1.2).abs() < 0.1, "{named}");
+        assert!(number(&named["lost"]) > 0.8 * number(&report["person_seconds"]["lost"]), "{named}");
+    }
+}
+
 /// Three rooms in a row: a first door, and a second one, of these widths.
 fn row([first, second]: [f64; 2]) -> String {
     let [a, b] = [4.0 - 0.5 * first, 4.0 + 0.5 * first];
@@ -205,11 +219,18 @@ fn faults_of_plans_and_limits_are_said() {
     refused(&plan("8 1, 8 3"), &["--start", "20,20,30,30"], 3, "have no room");
     refused(&plan("8 1, 8 3"), &["--exits", "a,b"], 4, "has 2 names, and the plan has 1");
     refused(&plan("8 1, 8 3"), &["--start", "1,2,3"], 2, "two corners");
+    refused(&plan("8 1, 8 3"), &["--speed", "1e9"], 3, "choose a lower --speed");
     // A wall right behind an exit pushes pedestrians back.
     std::fs::write(path("plan.wkt"), plan("8.9 1, 8.9 3")).expect("a plan");
     let near = ["crowds", &path("plan.wkt"), "-o", &path("near"), "--backend", "cpu", "--people", "2", "--limit", "1"];
     let (code, _, words) = motes(&near);
-    assert!(code == 0 && words.contains("has a wall 0.10 m from its middle, at 8.90 2.00"), "{words}");
+    let wall = "has a wall 0.10 m from its middle, at 8.90 2.00";
+    assert!(code == 0 && words.contains(wall), "{words}");
+    // The report keeps it, also where the terminal has only numbers.
+    let page = std::fs::read_to_string(path("near/report.md")).expect("a report");
+    let values = std::fs::read_to_string(path("near/report.json")).expect("a report");
+    let (code, text, _) = motes(&[&near[..], &["--overwrite", "--json"]].concat());
+    assert!(code == 0 && [&page, &values, &text].iter().all(|all| all.contains("has a wall 0.10 m")), "{page}{text}");
     std::fs::write(path("plan.wkt"), plan("8 1, 8 3")).expect("a plan");
     let args = ["crowds", &path("plan.wkt"), "-o", &path("short"), "--backend", "cpu", "--people", "5", "--limit", "1"];
     let (code, text, words) = motes(&args);

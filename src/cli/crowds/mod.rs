@@ -35,6 +35,8 @@ pub struct Evacuation<'a> {
     pub report: Report,
     pub driven: Driven,
     pub device: String,
+    /// What one should know about the plan, the scene and the device.
+    pub remarks: Vec<String>,
     /// The interval between samples, and the step \[s\].
     pub sample: f64,
     pub dt: f64,
@@ -58,11 +60,13 @@ pub async fn crowds(args: &CrowdsArgs) -> Result<(), Failure> {
     let engine = Engine::choose(&args.device).await?;
     let stop = stop::listen(&args.stop);
     let mut progress = Progress::new(&args.show, 0, scene.steps);
+    let others: Vec<String> = engine.remarks(&setup)?.into_iter().chain(scene.remarks.iter().cloned()).collect();
     if !args.show.json {
         progress.say(&format!("{name}: {} pedestrians, on {}", args.people, engine.describe()));
         read.remarks.iter().for_each(|remark| progress.warning(remark));
-        engine.remarks(&setup)?.iter().chain(&scene.remarks).for_each(|remark| progress.remark(remark));
+        others.iter().for_each(|remark| progress.remark(remark));
     }
+    let remarks = read.remarks.into_iter().chain(others).collect();
     let begun = Instant::now();
     let (every, steps) = (start.every, scene.steps);
     let driven = match &engine {
@@ -81,7 +85,8 @@ pub async fn crowds(args: &CrowdsArgs) -> Result<(), Failure> {
     let ways = Ways::new(read.plan.cells(), driven.distance.clone());
     let report = Report::of(&read.plan, &ways, &driven.record);
     let (dt, sample) = (scene.dt, scene.dt * f64::from(every));
-    let done = Evacuation { args, name, plan: read.plan, report, driven, device: engine.describe(), sample, dt };
+    let done =
+        Evacuation { args, name, plan: read.plan, report, driven, device: engine.describe(), remarks, sample, dt };
     let until = done.driven.steps as f64 * dt;
     folder.write(&done, &start.until(until))?;
     if args.show.json {

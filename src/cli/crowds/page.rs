@@ -76,6 +76,9 @@ pub fn text(done: &Evacuation<'_>) -> String {
     for line in summary(done) {
         let _ = writeln!(page, "- {line}");
     }
+    for remark in &done.remarks {
+        let _ = writeln!(page, "- Note: {remark}");
+    }
     page.push_str("\n## Bottlenecks\n\n![where time is lost](delay.svg)\n\n");
     if report.bottlenecks.is_empty() {
         let _ = writeln!(

@@ -38,7 +38,7 @@ pub fn value(done: &Evacuation<'_>) -> Value {
     let cells = |values: &[f64]| values.iter().copied().map(number).collect::<Vec<_>>();
     json!({
         "plan": done.name, "people": done.args.people, "seed": done.args.seed, "speed": done.args.speed, "dt": done.dt,
-        "sample": done.sample, "device": done.device, "steps": done.driven.steps, "stopped": done.driven.stopped, "stuck": done.driven.stuck,
+        "remarks": done.remarks, "sample": done.sample, "device": done.device, "steps": done.driven.steps, "stopped": done.driven.stopped, "stuck": done.driven.stuck,
         "inside": report.inside(), "wall_corrections": done.driven.corrections,
         "evacuation": { "last": some(report.time_of(1.0)), "most": some(report.time_of(0.95)), "median": some(report.time_of(0.5)) },
         "person_seconds": { "spent": number(report.spent()), "lost": number(report.delay()), "on_the_map": number(map.total()),
