@@ -7,7 +7,10 @@ const WORKGROUP: u32 = 64u;
 
 fn lightness(particle: Particle) -> f32 { return select(1.0 / particle.mass, 0.0, is_held(particle.index)); }
 
-fn springs_of(id: u32) -> f32 { return f32(link_start[id + 1u] - link_start[id]); }
+fn springs_of(id: u32) -> f32 {
+    let links = links_of(id);
+    return f32(links.end - links.first);
+}
 
 @compute @workgroup_size(WORKGROUP)
 fn strain_limit(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u, @builtin(local_invocation_index) lane: u32) {
@@ -17,9 +20,9 @@ fn strain_limit(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) gr
     let mine = lightness(me);
     let springs = springs_of(i);
     var change = vec3f();
-    let end = link_start[i + 1u];
-    for (var k = link_start[i]; k < end; k += 1u) {
-        let one = link[k];
+    let links = links_of(i);
+    for (var k = links.first; k < links.end; k += 1u) {
+        let one = link_at(links, k);
         let you = particle(one.partner);
         let r = shortest(you.position - me.position);
         let l = length(r);

@@ -3,15 +3,18 @@
 // relative to me. The caller defines the direction.
 struct Expansion { pull: vec3f, own: vec3f }
 
-fn is_tied(i: u32) -> bool { return link_start[i] < link_start[i + 1u]; }
+fn is_tied(i: u32) -> bool {
+    let links = links_of(i);
+    return links.first < links.end;
+}
 
 // (h² K + h D) times the direction, the row of one particle.
 fn pull(me: Particle, h: f32) -> vec3f {
     let mine = direction(me.index);
     var sum = vec3f();
-    let end = link_start[me.index + 1u];
-    for (var k = link_start[me.index]; k < end; k += 1u) {
-        let one = link[k];
+    let links = links_of(me.index);
+    for (var k = links.first; k < links.end; k += 1u) {
+        let one = link_at(links, k);
         let you = particle(one.partner);
         let way = direction(one.partner) - mine;
         sum += jvp(me, you, shortest(you.position - me.position), one, (h * h) * way, h * way);
@@ -23,9 +26,9 @@ fn pull(me: Particle, h: f32) -> vec3f {
 fn expansion(me: Particle, h: f32) -> Expansion {
     let mine = direction(me.index);
     var sum = Expansion();
-    let end = link_start[me.index + 1u];
-    for (var k = link_start[me.index]; k < end; k += 1u) {
-        let one = link[k];
+    let links = links_of(me.index);
+    for (var k = links.first; k < links.end; k += 1u) {
+        let one = link_at(links, k);
         let you = particle(one.partner);
         let r = shortest(you.position - me.position);
         let square = h * h;

@@ -16,7 +16,7 @@ fn distant(me: Particle, you: Group, r: vec3f, sum: ptr<function, Sum>) {
     let second = inverse * over * over * 0.75 - rate * square * square * curve;
     let third = inverse * over * over * over * -1.875 + rate * square * square * square * twist;
     let q = moments(you, r);
-    let trace = you.diagonal.x + you.diagonal.y + you.diagonal.z;
+    let trace = 2.0 * you.half_trace;
     let along = 2.0 * dot(r, q);
     if v > 0.0 {
         (*sum).acceleration -= 2.0 * ((you.mass * first + trace * second + along * third) * r + (2.0 * second) * q);

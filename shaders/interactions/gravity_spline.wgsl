@@ -5,7 +5,7 @@ struct Params { unused_word: u32, g: f32, softening: f32 }
 @group(3) @binding(0) var<uniform> params: Params;
 
 // Beyond its support the spline is Newton's law.
-fn smoothing() -> f32 { return 0.0; }
+fn softened(r: vec3f) -> f32 { return dot(r, r); }
 
 fn gather(me: Particle, you: Particle, r: vec3f, sum: ptr<function, Sum>) {
     let h = 2.8 * params.softening;

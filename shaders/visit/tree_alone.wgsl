@@ -57,10 +57,14 @@ fn walk(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: ve
             } else {
                 let real = exists(node, depth);
                 let itself = real && is_own(node, depth, own);
-                var open = itself || (real && reaches_box(node, here));
-                if open && !itself && is_doubtful(node, here) {
-                    open = reaches_target(node, here);
-                    spent += GROUP;
+                var open = itself;
+                if real && !itself {
+                    let tested = node_at(node);
+                    open = reaches_box(tested, here);
+                    if open && is_doubtful(tested, here) {
+                        open = reaches_target(tested, here);
+                        spent += GROUP;
+                    }
                 }
                 if real && !open {
                     meet_group(tree_center[node].xyz, group_at(node), a, b, c, d, &far_a, &far_b, &far_c, &far_d);

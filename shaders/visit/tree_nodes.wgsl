@@ -17,14 +17,22 @@ struct Tree { unused_word: u32, first: u32, end: u32, height: u32, widened: f32,
 override LEAF: u32;
 override GROUP: u32;
 
-// A far group of particles: its mass, and its second moments Σ m y yᵀ about the centre of mass.
-struct Group { mass: f32, diagonal: vec3f, mixed: vec3f }
+// A far group of particles: its mass, its second moments Σ m y yᵀ about the centre of mass, and half their trace.
+struct Group { mass: f32, diagonal: vec3f, mixed: vec3f, half_trace: f32 }
 
 // Its second moments times a vector.
 fn moments(group: Group, r: vec3f) -> vec3f {
     return group.diagonal * r + vec3f(group.mixed.x * r.y + group.mixed.y * r.z,
                                       group.mixed.x * r.x + group.mixed.z * r.z,
                                       group.mixed.y * r.x + group.mixed.z * r.y);
+}
+
+// A node that is tested: its centre of mass, and its reach, which the opening criterion defines.
+struct Node { center: vec3f, reach: Reach }
+
+fn node_at(node: u32) -> Node {
+    let center = tree_center[node];
+    return Node(center.xyz, reach_of(node, center.w));
 }
 
 // Where a group of targets is: the first of them, the middle of their box and half its sides, how far apart its nodes must
@@ -39,7 +47,7 @@ fn last_target() -> u32 { return min(tree.end, world.count); }
 fn group_at(node: u32) -> Group {
     let m = tree_mass[node];
     let q = tree_shape[node];
-    return Group(m.w, vec3f(m.x, q.x, q.z), vec3f(m.yz, q.y));
+    return Group(m.w, vec3f(m.x, q.x, q.z), vec3f(m.yz, q.y), 0.5 * (m.x + q.x + q.z));
 }
 
 fn place_at(group: u32, first: u32, low: vec3f, high: vec3f) -> Place {
@@ -87,12 +95,13 @@ fn nearest(place: Place, x: vec3f) -> f32 {
 // A node is opened where it reaches a target. Where it reaches the box of all of them, that is as good as certain, unless
 // the box is four times as wide as the node reaches: bodies that follow each other along the curve where few are have a box that may
 // hold the core of the whole system, and are nowhere near it. Then they are asked one by one.
-fn reaches_box(node: u32, place: Place) -> bool {
-    return reaches(node, apart(place, tree_center[node].xyz), place.demand);
-}
-fn is_doubtful(node: u32, place: Place) -> bool { return !reaches(node, place.wide, place.demand); }
-fn reaches_target(node: u32, place: Place) -> bool {
-    return reaches(node, nearest(place, tree_center[node].xyz), place.demand);
+fn reaches_box(node: Node, place: Place) -> bool { return reaches(node.reach, apart(place, node.center), place.demand); }
+fn is_doubtful(node: Node, place: Place) -> bool { return !reaches(node.reach, place.wide, place.demand); }
+fn reaches_target(node: Node, place: Place) -> bool { return reaches(node.reach, nearest(place, node.center), place.demand); }
+
+fn reaches_any(node: u32, place: Place) -> bool {
+    let tested = node_at(node);
+    return reaches_box(tested, place) && (!is_doubtful(tested, place) || reaches_target(tested, place));
 }
 
 fn target_of(slot: u32) -> Particle {

@@ -4,9 +4,12 @@
 
 fn demand_of(group: u32) -> f32 { return tree_demand[group]; }
 
-fn reaches(node: u32, d: f32, demand: f32) -> bool {
-    let length = tree_shape[node].w;
-    let reach = tree_center[node].w + select(0.0, tree.widened * length, demand == 0.0);
+struct Reach { radius: f32, length: f32, mass: f32 }
+
+fn reach_of(node: u32, radius: f32) -> Reach { return Reach(radius, tree_shape[node].w, tree_mass[node].w); }
+
+fn reaches(reach: Reach, d: f32, demand: f32) -> bool {
+    let radius = reach.radius + select(0.0, tree.widened * reach.length, demand == 0.0);
     // l² / d² is at most 1 here, so that nothing overflows.
-    return d <= reach * reach || demand * tree_mass[node].w * (length * length / d) > d;
+    return d <= radius * radius || demand * reach.mass * (reach.length * reach.length / d) > d;
 }

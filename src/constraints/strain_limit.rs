@@ -37,13 +37,14 @@ impl StrainLimit {
         Self { strain: settings.number("strain"), sweeps: settings.whole("sweeps") }
     }
     fn sweep(&self, problem: &Problem) -> Result<Kernel, Error> {
-        let (holding, tables) = problem.holding();
+        let (holding, held) = problem.holding();
+        let tables = visit::Tables::of(problem);
         let shader = Shader::join(&[
             crate::shader!("world.wgsl"),
             crate::shader!("fields.wgsl"),
             crate::shader!("particle.wgsl"),
             holding,
-            crate::shader!("visit/link_table.wgsl"),
+            tables.file(),
             crate::shader!("constraints/strain_limit.wgsl"),
         ])?;
         let constants = [problem.constants(&shader), vec![("STRAIN", self.strain)]].concat();
@@ -53,7 +54,7 @@ impl StrainLimit {
         let reference = move |host: &Host| {
             let view = visit::View::of(host)?;
             let (bodies, bounds) = (view.particles(), host.world().bounds);
-            let tied = visit::Tied::of(host, visit::Tables::Each)?;
+            let tied = visit::Tied::of(host, tables)?;
             let lightness = |id: usize| if whole.is_held(id) { 0.0 } else { 1.0 / bodies[id].mass };
             let halves: Vec<_> = (0..bodies.len()).map(|id| tied.halves(id)).collect();
             let mut limited = host.write(LIMITED)?;
@@ -73,7 +74,7 @@ impl StrainLimit {
             Ok(())
         };
         let (name, sizes, scratch) = ("strain_limit".to_owned(), Vec::new(), Vec::new());
-        let kernel = Kernel { name, passes: vec![pass], reference: Some(Arc::new(reference)), sizes, scratch, tables };
+        let kernel = Kernel { name, passes: vec![pass], reference: Some(Arc::new(reference)), sizes, scratch, tables: held };
         Ok(visit::bind(kernel, Over::Links, problem))
     }
 }

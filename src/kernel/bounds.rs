@@ -120,6 +120,9 @@ impl Bounds {
     /// The shortest vector to any image, in single precision.
     #[must_use]
     pub fn shortest_single(&self, r: DVec3) -> Vec3 {
+        if !self.has(Side::Periodic) {
+            return r.as_vec3();
+        }
         let (r, period) = (r.as_vec3(), self.period().as_vec3());
         r - period * self.turns(r)
     }

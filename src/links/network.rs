@@ -8,7 +8,7 @@ use super::{Half, Joint, Link, Links, Rod, WORDS};
 /// The maximum number of links of a particle: one invocation loops over them, and some drivers end loops after 65 535 iterations.
 pub const MOST_LINKS: u32 = 60_000;
 
-/// The maximum number of kinds of springs stored by kind; see `shaders/visit/links_alike.wgsl`.
+/// The maximum number of kinds of springs stored by kind; see `shaders/visit/link_partners.wgsl`.
 const MOST_KINDS: usize = 4;
 
 /// The tables of some links. A table of starts has one word for each particle, and one more for the end.

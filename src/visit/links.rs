@@ -59,12 +59,10 @@ pub fn kernel(law: Law, problem: &Problem) -> Result<Kernel, Error> {
     law.requires(&[("gather", gather), law.finish()])?;
     let mut files = vec![crate::shader!("world.wgsl"), crate::shader!("fields.wgsl"), problem.precision.particle()];
     let tables = Tables::of(problem);
-    match (corners, tables) {
-        (true, _) => files.push(crate::shader!("visit/corners.wgsl")),
-        (false, Tables::Alike) => files.push(crate::shader!("visit/links_alike.wgsl")),
-        (false, _) => {
-            files.extend([crate::shader!("visit/link_table.wgsl"), crate::shader!("visit/links.wgsl")]);
-        }
+    if corners {
+        files.push(crate::shader!("visit/corners.wgsl"));
+    } else {
+        files.extend([tables.file(), crate::shader!("visit/links.wgsl")]);
     }
     files.push(law.result());
     files.extend(law.alarm_file());

@@ -2,7 +2,7 @@
 
 use super::{LINK, LINK_START};
 use crate::error::Error;
-use crate::kernel::{Host, Problem, Reading};
+use crate::kernel::{Host, Problem, Reading, Source};
 use crate::links::{Half, WORDS};
 
 /// The tables of links that a kernel binds, and its reference reads. They are determined by the problem, since the host also has the tables
@@ -22,6 +22,14 @@ impl Tables {
     #[must_use]
     pub fn of(problem: &Problem) -> Self {
         if !problem.breaks && problem.network.alike() { Self::Alike } else { Self::Each }
+    }
+    /// The shader that reads them.
+    #[must_use]
+    pub fn file(self) -> Source {
+        match self {
+            Self::Alike => crate::shader!("visit/link_partners.wgsl"),
+            Self::Each | Self::None => crate::shader!("visit/link_table.wgsl"),
+        }
     }
 }
 

@@ -7,7 +7,7 @@ use rayon::prelude::*;
 
 use super::particle::{Particle, View};
 use crate::error::Error;
-use crate::kernel::{ACCELERATION, Bounds, Reference, World};
+use crate::kernel::{ACCELERATION, Bounds, Reference, Side, World};
 use crate::tree::{GROUP, Nodes, Opening, Tree};
 
 /// A far group of particles, as a law's reference sees it.
@@ -88,17 +88,12 @@ pub fn reference(
         }
         // Positions may have two words, of which a view has one: the places of the tree have both.
         let place = |slot: usize| nodes.bodies()[slot].truncate();
-        let meet = |mine: usize, me: &Particle, met: &Met| -> DVec4 {
-            let near = met.leaves.iter().flat_map(|leaf| nodes.range(*leaf)).filter_map(|slot| {
-                let you = &bodies[nodes.ids()[slot] as usize];
-                let r = world.bounds.shortest(place(slot) - place(mine));
-                (you.index != me.index).then(|| rule(me, you, r, &world))
-            });
-            let far = met.far.iter().map(|node| {
-                let group = Group { mass: nodes.mass(*node), moments: nodes.moments(*node) };
-                far(me, &group, world.bounds.shortest(nodes.center(*node) - place(mine)), &world)
-            });
-            near.sum::<DVec4>() + far.sum::<DVec4>()
+        let periodic = world.bounds.has(Side::Periodic);
+        let shortest = |r: DVec3| if periodic { world.bounds.shortest(r) } else { r };
+        let body = |slot: usize| (place(slot), &bodies[nodes.ids()[slot] as usize]);
+        let cell = |node: &u32| {
+            let group = Group { mass: nodes.mass(*node), moments: nodes.moments(*node) };
+            (nodes.center(*node), group)
         };
         let slots: Vec<usize> = (0..tree.used as usize).collect();
         let sums: Vec<(usize, DVec4)> = slots
@@ -114,8 +109,16 @@ pub fn reference(
                     &nodes,
                     slots[0]..slots[0] + slots.len(),
                 );
-                let of = |slot: &usize| nodes.ids()[*slot] as usize;
-                slots.iter().map(|slot| (of(slot), meet(*slot, &bodies[of(slot)], &met))).collect::<Vec<_>>()
+                let near: Vec<_> = met.leaves.iter().flat_map(|leaf| nodes.range(*leaf)).map(body).collect();
+                let groups: Vec<_> = met.far.iter().map(cell).collect();
+                let sum = |slot: &usize| {
+                    let (x, me) = body(*slot);
+                    let others = near.iter().filter(|(_, you)| you.index != me.index);
+                    let near: DVec4 = others.map(|(y, you)| rule(me, you, shortest(*y - x), &world)).sum();
+                    let far: DVec4 = groups.iter().map(|(y, group)| far(me, group, shortest(*y - x), &world)).sum();
+                    (me.index, near + far)
+                };
+                slots.iter().map(sum).collect::<Vec<_>>()
             })
             .collect();
         let mut acceleration = host.write(ACCELERATION)?;

@@ -7,12 +7,13 @@ use super::rows::Ties;
 use super::{ALONE, DIRECTIONS, DOTS, RESIDUALS, State, System, names, on_states, reference, with};
 use crate::error::Error;
 use crate::kernel::{Host, Kernel, Shader};
-use crate::visit::{LINK, LINK_START, ROW, ROWS, View};
+use crate::visit::{ROW, ROWS, Tables, View};
 
 /// A z and the parts of the sums; `turned`: the two states are swapped.
 pub fn product(system: &System<'_>, turned: bool) -> Result<Kernel, Error> {
     let (factor, (chunk, _)) = (system.factor, system.cut());
     let jacobian = system.links.as_ref().and_then(|law| law.jacobian.clone());
+    let tables = Tables::of(system.problem);
     let run = move |host: &Host| {
         if State::of(&host.reading::<f32>(names(turned).0)?).code > 0.0 {
             return Ok(());
@@ -21,17 +22,7 @@ pub fn product(system: &System<'_>, turned: bool) -> Result<Kernel, Error> {
         let (bodies, world) = (view.particles(), host.world());
         let h = factor * world.dt;
         let residuals = host.read(RESIDUALS)?;
-        let tables = match &jacobian {
-            Some(_) => Some((host.reading::<u32>(LINK_START)?, host.reading::<u32>(LINK)?)),
-            None => None,
-        };
-        let ties = jacobian.as_ref().zip(tables.as_ref()).map(|(jacobian, (start, link))| Ties {
-            jacobian,
-            bodies: &bodies,
-            bounds: world.bounds,
-            start,
-            link,
-        });
+        let ties = Ties::of(jacobian.as_ref(), tables, &bodies, host)?;
         let mut rows = host.write(ROWS)?;
         rows.par_chunks_mut(ROW).take(bodies.len()).enumerate().for_each(|(i, row)| {
             let z = residuals[2 * i].truncate();

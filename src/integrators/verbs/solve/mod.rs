@@ -14,6 +14,7 @@ use glam::Vec4;
 use crate::error::Error;
 use crate::forces::Law;
 use crate::kernel::{Field, Kernel, Pass, Problem, Reference, Scalar, Shader, Source};
+use crate::visit::Tables;
 
 /// The positions at the start of a solve.
 pub const START_POSITION: Field<Vec4> = Field::new("start_position");
@@ -101,7 +102,7 @@ impl System<'_> {
     fn tied(&self, name: &str, files: &[Source], reference: Reference) -> Result<Kernel, Error> {
         let mut all = vec![crate::shader!("integrators/solve_row.wgsl")];
         let (shader, uniforms) = if let Some(law) = &self.links {
-            all.extend([crate::shader!("visit/link_table.wgsl"), crate::shader!("integrators/solve_links.wgsl")]);
+            all.extend([Tables::of(self.problem).file(), crate::shader!("integrators/solve_links.wgsl")]);
             all.extend_from_slice(files);
             law.beside(&all, self.problem)?
         } else {
