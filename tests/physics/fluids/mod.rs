@@ -14,6 +14,7 @@ mod lockstep;
 mod rates;
 mod smoothing;
 mod tension;
+mod turning;
 mod vortices;
 mod walls;
 
