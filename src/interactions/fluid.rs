@@ -10,10 +10,11 @@ use crate::sph::{
     self, Asked, COURANT, Continuity, Continuum, Dfsph, Form, Friction, Limits, Medium, Rates, Smoothing, Tension, WallMass, Walls,
 };
 use crate::kernel::{Bounds, Column, Plan};
-use crate::settings::{Key, Kind, Settings, Value};
+use crate::settings::{Key, Kind, Preset, Settings, Value};
 
 /// The keys in a scene.
 pub const KEYS: &[Key] = &[
+    Key::new("regime", Kind::Choice(&["general", "viscous"]), Value::Text(Cow::Borrowed("general")), "\"viscous\", for flows between walls without a surface, at Reynolds numbers up to some 100: other defaults of kernel, support, density_by, diffusion, negative_pressure, viscosity_form, walls and wall_mass; keys that are given win").with_presets(REGIMES),
     Key::new("density", Kind::Positive, Value::Number(1000.0), "the density at rest [mass / length³, or mass / length² in two dimensions]").of_fluid(),
     Key::required("spacing", Kind::Positive, "the spacing of particles at rest, on a cubic lattice [length]").of_fluid(),
     Key::new("support", Kind::Positive, Value::Number(2.0), "the support radius of the kernel [spacings]").of_fluid(),
@@ -40,6 +41,21 @@ pub const KEYS: &[Key] = &[
     Key::new("max_iterations", Kind::Count, Value::Number(50.0), "dfsph: the maximum number of iterations of a solve"),
 ];
 
+/// Rows of particles that slide past each other keep their order where walls have the pressure of the fluid around them, and the kernel
+/// is smooth and wide: see the guide.
+const REGIMES: &[Preset] = &[Preset {
+    word: "viscous",
+    defaults: &[
+        ("kernel", Value::Text(Cow::Borrowed("wendland"))),
+        ("support", Value::Number(3.0)),
+        ("density_by", Value::Text(Cow::Borrowed("continuity"))),
+        ("diffusion", Value::Number(0.1)),
+        ("negative_pressure", Value::Flag(true)),
+        ("viscosity_form", Value::Text(Cow::Borrowed("morris"))),
+        ("walls", Value::Text(Cow::Borrowed("extrapolate"))),
+        ("wall_mass", Value::Text(Cow::Borrowed("lattice"))),
+    ],
+}];
 const FORMS: &[&str] = &["central", "morris"];
 const WALLS: &[&str] = &["mirror", "extrapolate"];
 const WALL_MASS: &[&str] = &["sampled", "lattice"];
@@ -128,7 +144,14 @@ impl Fluid {
     /// The options of the density, where it is a state.
     fn continuity(&self) -> Result<Option<Continuity>, Error> {
         let diffusion = self.0.number("diffusion");
-        if self.solves() && (self.0.text("density_by") == "continuity" || self.0.text("walls") == "extrapolate") {
+        let carried = self.0.text("density_by") == "continuity" || self.0.text("walls") == "extrapolate";
+        if self.solves() && carried && self.0.text("regime") == "viscous" {
+            return Err(Error::Setting { key: "regime", why: 
+                "a fluid with regime = \"viscous\" has density_by = \"continuity\" and walls = \"extrapolate\" unless they are given, and a \
+                 pressure that is solved for has neither: leave out regime, or solver = \"dfsph\""
+                    .to_owned() });
+        }
+        if self.solves() && carried {
             return Err(Error::Setting { key: "solver", why: 
                 "a fluid with solver = \"dfsph\" has its density by summation, and its walls have the pressure of the particles that press on \
                  them: leave out density_by = \"continuity\" and walls = \"extrapolate\", or say solver = \"wcsph\""

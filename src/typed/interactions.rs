@@ -497,6 +497,8 @@ typed! {
     }
     /// A fluid by smoothed particle hydrodynamics, weakly compressible (Monaghan 1994); fixed particles are its walls.
     Fluid "fluid" fluid(spacing: f64) {
+        /// "viscous", for flows between walls without a surface, at Reynolds numbers up to some 100: other defaults of kernel, support, density_by, diffusion, negative_pressure, viscosity_form, walls and wall_mass; keys that are given win: general, viscous.
+        regime: Cow<'static, str>,
         /// The density at rest \[mass / length³, or mass / length² in two dimensions\].
         density: f64,
         /// The spacing of particles at rest, on a cubic lattice \[length\].

@@ -12,6 +12,7 @@ mod keys;
 mod laplace;
 mod lockstep;
 mod rates;
+mod regime;
 mod smoothing;
 mod tension;
 mod turning;
