@@ -120,9 +120,31 @@ pub struct Key {
     pub about: &'static str,
     /// Whether it is a property of the scene's fluid: shapes and emitters that leave it out use the value of the force.
     pub of_fluid: bool,
+    /// What its words change, if anything, in the defaults of other keys.
+    pub presets: &'static [Preset],
+}
+
+/// A word of a key that changes the defaults of other keys of the same owner; values that are given win.
+#[derive(Debug, PartialEq)]
+pub struct Preset {
+    /// The word.
+    pub word: &'static str,
+    /// The keys, with their defaults under it.
+    pub defaults: &'static [(&'static str, Value)],
 }
 
 impl Key {
+    /// The same, whose words change the defaults of other keys.
+    #[must_use]
+    pub const fn with_presets(mut self, presets: &'static [Preset]) -> Self {
+        self.presets = presets;
+        self
+    }
+    /// The defaults of other keys under one of its words.
+    #[must_use]
+    pub fn preset(&self, word: &str) -> &'static [(&'static str, Value)] {
+        self.presets.iter().find(|preset| preset.word == word).map_or(&[], |preset| preset.defaults)
+    }
     /// The same, as a property of the scene's fluid.
     #[must_use]
     pub const fn of_fluid(mut self) -> Self {
@@ -132,12 +154,12 @@ impl Key {
     /// A key with a default.
     #[must_use]
     pub const fn new(name: &'static str, kind: Kind, default: Value, about: &'static str) -> Self {
-        Self { name, kind, default: Some(default), about, of_fluid: false }
+        Self { name, kind, default: Some(default), about, of_fluid: false, presets: &[] }
     }
     /// A key that must be given.
     #[must_use]
     pub const fn required(name: &'static str, kind: Kind, about: &'static str) -> Self {
-        Self { name, kind, default: None, about, of_fluid: false }
+        Self { name, kind, default: None, about, of_fluid: false, presets: &[] }
     }
 }
 
@@ -151,6 +173,13 @@ impl Settings {
     #[must_use]
     pub fn defaults(keys: &[Key]) -> Self {
         Self(keys.iter().filter_map(|k| Some((k.name, k.default.clone()?))).collect())
+    }
+    /// The same with a word of a key, and what it changes in the defaults of other keys.
+    #[must_use]
+    pub fn under(self, keys: &[Key], name: &'static str, word: &'static str) -> Self {
+        let changed = keys.iter().find(|key| key.name == name).map_or(&[][..], |key| key.preset(word));
+        let all = changed.iter().fold(self, |all, (name, value)| all.with(name, value.clone()));
+        all.with(name, word.into())
     }
     /// The same with one value set. A name that the force, shape or picture does not have is reported when it is built.
     #[must_use]

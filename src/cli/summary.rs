@@ -30,12 +30,19 @@ pub fn energy(rows: &[Energy], looks: &Looks, conserved: &Conserved) -> String {
     format!("{ends}, {word} {:+.1e}, at most {most:.1e} in {} measurements", last.drift_from(&first), looks.count)
 }
 
-/// The change of the momenta that are conserved.
+/// The change of the momenta that are conserved, and of an angular momentum that only some named mechanisms change.
 pub fn momentum(rows: &[Energy], conserved: &Conserved) -> Option<String> {
     let (first, last) = (rows.first()?, rows.last()?);
     let (p, l) = (last.momentum - first.momentum, last.angular_momentum - first.angular_momentum);
-    let turning = format!(", angular momentum by {:.1e}", l.length());
-    let turning = if conserved.angular_momentum { &turning } else { "" };
+    let size = first.angular_momentum.length();
+    let part = if size > 0.0 { format!(" of {size:.3e}") } else { String::new() };
+    let turning = match conserved {
+        Conserved { angular_momentum: true, .. } => format!(", angular momentum by {:.1e}", l.length()),
+        Conserved { turners, .. } if turners.is_empty() => String::new(),
+        Conserved { turners, .. } => {
+            format!(", angular momentum not conserved ({}), change {:.1e}{part}", turners.join("; "), l.length())
+        }
+    };
     conserved.momentum.then(|| format!("momentum changed by {:.1e}{turning}", p.length()))
 }
 

@@ -244,8 +244,8 @@ pub struct Properties {
     pub barostat: Option<Pressed>,
     /// Whether it needs the forces of the positions at which a step begins: `ends_with_forces` of the integrator.
     pub needs_forces: bool,
-    /// Whether it changes the angular momentum.
-    pub turns: bool,
+    /// Its mechanisms that change the angular momentum, in a word or two each, in addition to those of its laws.
+    pub turns: Vec<&'static str>,
     /// Whether it makes all particles that are not fixed a fluid.
     pub makes_fluid: bool,
     /// Whether it can limit the time step, so that steps can be adaptive.

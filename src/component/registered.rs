@@ -53,6 +53,13 @@ impl Component for Registered {
                 why: format!("`{name}` of `{}` is {}, and no table", self.name, key.kind.wanted()),
             });
         };
+        if !key.presets.is_empty() {
+            let why = format!(
+                "`{name}` of `{}` chooses defaults where a scene is read: change the keys that it is about",
+                self.name
+            );
+            return Err(Error::Setting { key: key.name, why });
+        }
         let settings = self.settings.clone().with(key.name, value.clone());
         if let Some(fault) = settings.fault(self.keys) {
             return Err(Error::Setting { key: key.name, why: format!("the force `{}` {fault}", self.name) });

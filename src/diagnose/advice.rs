@@ -72,6 +72,8 @@ pub struct Conserved {
     pub momentum: bool,
     /// The angular momentum.
     pub angular_momentum: bool,
+    /// What alone changes it, if anything does, where it would be conserved.
+    pub turners: Vec<&'static str>,
 }
 
 /// Whether any spring is damped.
@@ -107,6 +109,7 @@ pub fn conserved(setup: &Setup) -> Result<Conserved, Error> {
         takers: Vec::new(),
         momentum: !reflecting,
         angular_momentum: !reflecting && !periodic,
+        turners: Vec::new(),
     };
     let problem = setup.problem(MACHINE)?;
     for law in setup.forces.iter().flat_map(|force| force.laws()) {
@@ -137,7 +140,7 @@ pub fn conserved(setup: &Setup) -> Result<Conserved, Error> {
     // Projections of velocities or positions conserve neither energy nor momentum; nor do births and drains.
     let mut constrained = setup.state.has_inactive();
     for properties in setup.forces.iter().map(|force| force.properties()) {
-        conserved.angular_momentum &= !properties.turns;
+        conserved.turners.extend(properties.turns);
         conserved.takers.extend(properties.dissipates);
         conserved.takers.extend(properties.dissipates_at_walls.into_iter().filter(|_| !held.is_empty()));
         constrained |= properties.constrains;
@@ -146,6 +149,10 @@ pub fn conserved(setup: &Setup) -> Result<Conserved, Error> {
     if constrained {
         conserved = Conserved { energy: false, momentum: false, angular_momentum: false, ..conserved };
     }
+    if !conserved.angular_momentum {
+        conserved.turners.clear();
+    }
+    conserved.angular_momentum &= conserved.turners.is_empty();
     Ok(conserved)
 }
 

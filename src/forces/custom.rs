@@ -110,14 +110,15 @@ impl Component for Custom {
         if self.grains { grains::columns() } else { Vec::new() }
     }
     fn properties(&self) -> Properties {
+        let turns = if self.grains { vec!["spins"] } else { Vec::new() };
         let (Over::List { range, .. } | Over::Near { range, .. } | Over::Within { range } | Over::Auto { range, .. }) =
             self.over
         else {
-            return Properties { turns: self.grains, ..Properties::default() };
+            return Properties { turns, ..Properties::default() };
         };
         let why = "its range is the largest sum of two radii at least";
         let largest = self.grains.then_some(Largest { column: "radius", value: 0.5 * range, why });
-        Properties { turns: self.grains, largest: largest.into_iter().collect(), ..Properties::default() }
+        Properties { turns, largest: largest.into_iter().collect(), ..Properties::default() }
     }
     fn laws(&self) -> Vec<Law> {
         let params = self.params.iter().map(|(name, value)| (name.clone(), scalar(value))).collect();

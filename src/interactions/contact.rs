@@ -80,7 +80,7 @@ impl Component for Contact {
         Properties {
             fixed_step: Some("contact integrates the sliding distance with a fixed time step"),
             dissipates: vec!["contacts"],
-            turns: true,
+            turns: vec!["contacts"],
             touches: self.rows().into_iter().map(|row| row.material).collect(),
             largest: vec![Largest { column: "radius", value: 0.5 * self.0.number("range"), why: "its range is the largest sum of two radii" }],
             ..Properties::default()

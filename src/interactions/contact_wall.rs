@@ -130,7 +130,7 @@ impl Component for ContactWall {
             fixed_step: Some("walls integrate the sliding distance of grains with a fixed time step"),
             dissipates: vec!["walls"],
             constrains: true,
-            turns: true,
+            turns: vec!["walls"],
             history: true,
             touches: vec![Material::of(&self.0)],
             pictured: Some(Standing { solid: self.shape(), position, motion, inside }),

@@ -7,13 +7,14 @@ use glam::DVec3;
 use super::{Component, Problem, Properties, Resolved, Stage};
 use crate::error::Error;
 use crate::sph::{
-    self, Asked, COURANT, Continuity, Continuum, Dfsph, Friction, Limits, Medium, Rates, Smoothing, Tension, WallMass, Walls,
+    self, Asked, COURANT, Continuity, Continuum, Dfsph, Form, Friction, Limits, Medium, Rates, Smoothing, Tension, WallMass, Walls,
 };
 use crate::kernel::{Bounds, Column, Plan};
-use crate::settings::{Key, Kind, Settings, Value};
+use crate::settings::{Key, Kind, Preset, Settings, Value};
 
 /// The keys in a scene.
 pub const KEYS: &[Key] = &[
+    Key::new("regime", Kind::Choice(&["general", "viscous"]), Value::Text(Cow::Borrowed("general")), "\"viscous\", for flows between walls without a surface, at Reynolds numbers up to some 100: other defaults of kernel, support, density_by, diffusion, negative_pressure, viscosity_form, walls and wall_mass; keys that are given win").with_presets(REGIMES),
     Key::new("density", Kind::Positive, Value::Number(1000.0), "the density at rest [mass / length³, or mass / length² in two dimensions]").of_fluid(),
     Key::required("spacing", Kind::Positive, "the spacing of particles at rest, on a cubic lattice [length]").of_fluid(),
     Key::new("support", Kind::Positive, Value::Number(2.0), "the support radius of the kernel [spacings]").of_fluid(),
@@ -23,8 +24,9 @@ pub const KEYS: &[Key] = &[
     Key::new("gamma", Kind::Count, Value::Number(7.0), "the exponent of Tait's equation p = (ρ₀ c² / γ) ((ρ/ρ₀)^γ − 1), 2 to 15"),
     Key::new("negative_pressure", Kind::Flag, Value::Flag(false), "whether pressure may be below 0: where there is no free surface"),
     Key::new("alpha", Kind::NotNegative, Value::Number(0.0), "the artificial viscosity α (Monaghan 1992)"),
-    Key::new("viscosity", Kind::NotNegative, Value::Number(0.0), "the kinematic viscosity ν (Morris, Fox & Zhu 1997) [length² / time]"),
-    Key::new("xsph", Kind::NotNegative, Value::Number(0.0), "ε of XSPH: the fraction by which velocities move towards the mean of the neighbours in each step (Schechter & Bridson 2012)"),
+    Key::new("viscosity", Kind::NotNegative, Value::Number(0.0), "the kinematic viscosity ν, of the form viscosity_form [length² / time]"),
+    Key::new("viscosity_form", Kind::Choice(FORMS), Value::Text(Cow::Borrowed("central")), "the form of the viscosity: along the line between two particles, which preserves angular momentum (Monaghan & Gingold 1983; Cleary 1998; Monaghan 2005), or along the difference of their velocities, which is more accurate in channels on a lattice and takes the angular momentum of a fluid with a free surface (Morris, Fox & Zhu 1997)"),
+    Key::new("xsph", Kind::NotNegative, Value::Number(0.0), "ε of XSPH: the fraction by which velocities move towards the mean of the neighbours in each step (Schechter & Bridson 2012), which takes energy and angular momentum, whatever the resolution"),
     Key::new("wall_friction", Kind::NotNegative, Value::Number(1.0), "the part of both viscosities that acts at walls; 0: free slip"),
     Key::new("walls", Kind::Choice(WALLS), Value::Text(Cow::Borrowed("mirror")), "the pressure of walls: that of the particle at the wall (Akinci et al. 2012), or that of the fluid around them (Adami, Hu & Adams 2012, as if they were not accelerated)"),
     Key::new("wall_mass", Kind::Choice(WALL_MASS), Value::Text(Cow::Borrowed("sampled")), "the mass of wall particles: from their spacing, for one layer (Akinci et al. 2012), or that of a lattice particle, for several layers").of_fluid(),
@@ -39,6 +41,22 @@ pub const KEYS: &[Key] = &[
     Key::new("max_iterations", Kind::Count, Value::Number(50.0), "dfsph: the maximum number of iterations of a solve"),
 ];
 
+/// Rows of particles that slide past each other keep their order where walls have the pressure of the fluid around them, and the kernel
+/// is smooth and wide: see the guide.
+const REGIMES: &[Preset] = &[Preset {
+    word: "viscous",
+    defaults: &[
+        ("kernel", Value::Text(Cow::Borrowed("wendland"))),
+        ("support", Value::Number(3.0)),
+        ("density_by", Value::Text(Cow::Borrowed("continuity"))),
+        ("diffusion", Value::Number(0.1)),
+        ("negative_pressure", Value::Flag(true)),
+        ("viscosity_form", Value::Text(Cow::Borrowed("morris"))),
+        ("walls", Value::Text(Cow::Borrowed("extrapolate"))),
+        ("wall_mass", Value::Text(Cow::Borrowed("lattice"))),
+    ],
+}];
+const FORMS: &[&str] = &["central", "morris"];
 const WALLS: &[&str] = &["mirror", "extrapolate"];
 const WALL_MASS: &[&str] = &["sampled", "lattice"];
 const DENSITY_BY: &[&str] = &["summation", "continuity"];
@@ -107,7 +125,8 @@ impl Fluid {
     }
     fn friction(&self) -> Friction {
         let number = |name| self.0.number(name);
-        Friction { alpha: number("alpha"), viscosity: number("viscosity"), wall: number("wall_friction") }
+        let form = if self.0.text("viscosity_form") == "morris" { Form::Morris } else { Form::Central };
+        Friction { alpha: number("alpha"), viscosity: number("viscosity"), form, wall: number("wall_friction") }
     }
     fn tension(&self) -> Option<Tension> {
         let tension = Tension { tension: self.0.number("tension"), adhesion: self.0.number("adhesion") };
@@ -125,7 +144,14 @@ impl Fluid {
     /// The options of the density, where it is a state.
     fn continuity(&self) -> Result<Option<Continuity>, Error> {
         let diffusion = self.0.number("diffusion");
-        if self.solves() && (self.0.text("density_by") == "continuity" || self.0.text("walls") == "extrapolate") {
+        let carried = self.0.text("density_by") == "continuity" || self.0.text("walls") == "extrapolate";
+        if self.solves() && carried && self.0.text("regime") == "viscous" {
+            return Err(Error::Setting { key: "regime", why: 
+                "a fluid with regime = \"viscous\" has density_by = \"continuity\" and walls = \"extrapolate\" unless they are given, and a \
+                 pressure that is solved for has neither: leave out regime, or solver = \"dfsph\""
+                    .to_owned() });
+        }
+        if self.solves() && carried {
             return Err(Error::Setting { key: "solver", why: 
                 "a fluid with solver = \"dfsph\" has its density by summation, and its walls have the pressure of the particles that press on \
                  them: leave out density_by = \"continuity\" and walls = \"extrapolate\", or say solver = \"wcsph\""
@@ -158,14 +184,20 @@ impl Component for Fluid {
     }
     fn properties(&self) -> Properties {
         let on = |name| self.0.number(name) > 0.0;
-        let (rubs, solves) = (on("viscosity") || on("xsph"), self.solves());
+        let (solves, friction) = (self.solves(), self.friction());
         // Pressure by summation is the slope of the internal energy, and the equation of continuity goes along with it; nothing
         // else is. Friction along the difference of two velocities, and the curvature of a surface, turn a fluid.
         let all = [
-            (rubs || on("alpha") && !solves, "viscosity"),
+            (on("viscosity") || on("alpha") && !solves, "viscosity"),
+            (on("xsph"), "XSPH"),
             (self.tension().is_some(), "surface tension, which is not counted"),
             (on("diffusion"), "diffusion"),
             (solves, "pressure that is solved for"),
+        ];
+        let turning = [
+            (on("viscosity") && friction.form == Form::Morris, "viscosity_form = \"morris\""),
+            (on("xsph"), "XSPH"),
+            (self.tension().is_some(), "surface tension"),
         ];
         let caution = "alpha is proportional to the speed of sound, which a pressure solve does not have: give viscosity instead";
         Properties {
@@ -174,7 +206,7 @@ impl Component for Fluid {
             dissipates_at_walls: vec!["walls"],
             makes_fluid: true,
             limits_steps: true,
-            turns: rubs || self.tension().is_some(),
+            turns: turning.into_iter().filter(|(is, _)| *is).map(|(_, what)| what).collect(),
             integrators: if solves { &["symplectic_euler"] } else { &[] },
             largest_move: solves.then(|| COURANT * self.0.number("spacing")),
             caution: (solves && on("alpha")).then_some(caution),
@@ -196,7 +228,7 @@ impl Component for Fluid {
             cell_lists: vec![(medium.grid(problem)?, true)],
             fluid: Some(fluid),
             rates: Some(Rates::of(&medium, self.friction(), self.0.number("xsph"))),
-            viscous_steps: sph::viscous_steps(&medium, self.friction().viscosity, problem),
+            viscous_steps: sph::viscous_steps(&medium, self.friction(), problem),
             ..Resolved::default()
         })
     }

@@ -60,7 +60,7 @@ impl Component for SocialForce {
         Properties {
             dissipates: vec!["social forces"],
             ignores_massless: true,
-            turns: true,
+            turns: vec!["social forces"],
             presses: Some(crowds::Press::of(&self.0)),
             largest: limits.map(|(value, why)| Largest { column: "radius", value, why }).to_vec(),
             ..Properties::default()

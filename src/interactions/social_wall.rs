@@ -74,7 +74,7 @@ impl Component for SocialWall {
             constrains: true,
             keeps_in: true,
             dissipates: vec!["walls"],
-            turns: true,
+            turns: vec!["walls"],
             presses: Some(Press::of(&self.0)),
             ..Properties::default()
         }

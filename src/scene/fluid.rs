@@ -7,7 +7,7 @@ use crate::state::State;
 
 use super::emitter::EMITTER_KEYS;
 use super::report::{Fault, Report};
-use super::tree::{Data, Entry};
+use super::tree::{Data, Entry, Node};
 use super::value;
 use super::walk::Table;
 
@@ -31,7 +31,18 @@ fn force_keys(table: &Table<'_>) -> Option<&'static [Key]> {
 /// The settings of the first force `fluid`.
 pub(super) fn said<'a>(mut tables: impl Iterator<Item = &'a Table<'a>>) -> Vec<Entry> {
     let Some((table, keys)) = tables.find_map(|table| Some((table, force_keys(table)?))) else { return Vec::new() };
-    shared(keys).filter_map(|key| table.get(key).cloned()).collect()
+    let preset = |key: &str| {
+        let (said, (_, value)) = table.presets(keys).find(|(_, (name, _))| *name == key)?;
+        let data = match value {
+            Value::Number(x) => Data::Float(*x),
+            Value::Text(word) => Data::Text(word.to_string()),
+            Value::Flag(is) => Data::Flag(*is),
+            Value::Vector(_) | Value::Pairs(_) => return None,
+        };
+        let place = said.place.clone();
+        Some(Entry { key: key.to_owned(), node: Node { place: place.clone(), data }, place })
+    };
+    shared(keys).filter_map(|key| table.get(key).cloned().or_else(|| preset(key))).collect()
 }
 
 /// The entries of a shape or an emitter for these keys, completed by those of the force.
@@ -52,6 +63,8 @@ pub(super) fn contradictions<'a>(sections: &'a [(&'static str, Table<'a>)]) -> V
     for (table, own) in shapes.chain(all("emitter").map(|table| (table, EMITTER_KEYS))) {
         for name in shared(own) {
             let (Some(mine), theirs) = (given(table, own, name), given(force, keys, name)) else { continue };
+            let preset = || force.presets(keys).find(|(_, (key, _))| *key == name).map(|(_, (_, value))| value.clone());
+            let theirs = theirs.or_else(preset);
             let theirs = theirs.or_else(|| keys.iter().find(|key| key.name == name)?.default.clone());
             let Some(theirs) = theirs.filter(|theirs| *theirs != mine) else { continue };
             remarks.push(format!(

@@ -1,6 +1,6 @@
 //! The one walker that checks tables against keys declared as data.
 
-use crate::settings::{Key, Kind, Settings};
+use crate::settings::{Key, Kind, Settings, Value};
 
 use super::report::{Fault, Place, Report, listed, nearest, shorten};
 use super::sections::SECTIONS;
@@ -33,6 +33,7 @@ impl<'a> Table<'a> {
     /// so that reading continues; they are in the report.
     pub(super) fn settings(&self, keys: &[Key], own: &[&str], report: &mut Report) -> Settings {
         let mut settings = Settings::defaults(keys);
+        settings.0.extend(self.presets(keys).map(|(_, (name, value))| (*name, value.clone())));
         for entry in self.entries {
             if let Some(key) = keys.iter().find(|k| k.name == entry.key) {
                 if let Some(value) = value::read(&entry.node, key.name, key.kind, report) {
@@ -46,6 +47,20 @@ impl<'a> Table<'a> {
             report.push(self.lacks(key.name, &key.kind.wanted(), key.about));
         }
         settings
+    }
+    /// The defaults that words of this table change, with the entries of these words.
+    pub(super) fn presets<'b>(
+        &'b self,
+        keys: &'b [Key],
+    ) -> impl Iterator<Item = (&'b Entry, &'static (&'static str, Value))> + 'b {
+        keys.iter().filter(|key| !key.presets.is_empty()).flat_map(|key| {
+            let entry = self.get(key.name);
+            let word = entry.and_then(|entry| match &entry.node.data {
+                Data::Text(word) => Some((entry, key.preset(word))),
+                _ => None,
+            });
+            word.into_iter().flat_map(|(entry, all)| all.iter().map(move |one| (entry, one)))
+        })
     }
     /// The fault of a required key that is missing.
     pub(super) fn lacks(&self, key: &str, wanted: &str, about: &str) -> Fault {

@@ -26,7 +26,7 @@ pub use dfsph::{Asked, DFSPH_ERRORS, DFSPH_REPORT, DFSPH_WORDS, Dfsph, columns a
 pub use gap::gap;
 pub use limits::{COURANT, Limits, limits, viscous_steps};
 pub use medium::{Medium, Smoothed};
-pub use pressure::{Friction, Walls, pressure};
+pub use pressure::{Form, Friction, Walls, pressure};
 pub use rates::Rates;
 pub use smoothing::Smoothing;
 pub use start::{Continuum, Start, Still};

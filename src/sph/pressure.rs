@@ -13,10 +13,38 @@ use crate::visit::{Law, Outcome, Particle};
 pub struct Friction {
     /// α of the artificial viscosity (Monaghan 1992).
     pub alpha: f64,
-    /// The kinematic viscosity ν (Morris, Fox & Zhu 1997) \[length² / time\].
+    /// The kinematic viscosity ν \[length² / time\].
     pub viscosity: f64,
+    /// Its form.
+    pub form: Form,
     /// The part of both that acts at walls: 0 for free slip.
     pub wall: f64,
+}
+
+/// The form of laminar viscosity.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Form {
+    /// Along the line between two particles (Monaghan & Gingold 1983; Cleary 1998; Monaghan 2005), which preserves the angular
+    /// momentum: 2 (D + 2) ν Σ m / ρ̄ (v·r) / r² ∇W, with ρ̄ the mean density of the two.
+    ///
+    /// With v·r = r_b r_c ∂_b v_c + ½ r_b r_c r_e ∂_b ∂_e v_c and ∇W = g r, even moments remain: ½ ∂_b ∂_e v_c ∫ g r_a r_b r_c r_e / r² dr.
+    /// The mean of r_a r_b r_c r_e over directions is r⁴ (δ_ab δ_ce + δ_ac δ_be + δ_ae δ_bc) / (D (D + 2)), and ∫ g r² dr = −D, so that the
+    /// sum is −(∇²v + 2 ∇∇·v) / (2 (D + 2)): with the factor it is ν ∇²v where the flow is free of divergence (after Español & Revenga
+    /// 2003). On a lattice its sums are far from the integrals where neighbours are few: see the guide.
+    Central,
+    /// Along the difference of the velocities (Morris, Fox & Zhu 1997): ν Σ m (1 / ρ + 1 / ρ') g v. It exerts a torque where neighbours are
+    /// missing on one side, at free surfaces.
+    Morris,
+}
+
+impl Friction {
+    /// The factors of the central form and of Morris' in the law; the other one is 0.
+    fn factors(&self, medium: &Medium) -> [f64; 2] {
+        match self.form {
+            Form::Central => [4.0 * f64::from(medium.dimensions + 2) * self.viscosity, 0.0],
+            Form::Morris => [0.0, self.viscosity],
+        }
+    }
 }
 
 /// The pressure of walls.
@@ -37,9 +65,11 @@ pub enum Walls {
 /// When the range is invalid.
 pub fn pressure(medium: &Medium, friction: Friction, walls: Walls, problem: &Problem) -> Result<Law, Error> {
     let search = medium.search(FLOWING, &[FLOW], problem)?;
+    let [central, morris] = friction.factors(medium);
     let params = vec![
         ("alpha", Scalar::Float(friction.alpha)),
-        ("viscosity", Scalar::Float(friction.viscosity)),
+        ("central", Scalar::Float(central)),
+        ("morris", Scalar::Float(morris)),
         ("wall", Scalar::Float(friction.wall)),
         ("mirror", Scalar::Uint(u32::from(walls == Walls::Mirror))),
     ];
@@ -56,8 +86,8 @@ pub fn pressure(medium: &Medium, friction: Friction, walls: Walls, problem: &Pro
     };
     let wgsl = crate::shader!("sph/pressure.wgsl");
     let law = Law::searching("fluid pressure", search, wgsl, params, &[ACCELERATION.name], gather, finish);
-    // Walls are not pushed, and laminar friction does not act along the line between two.
-    Ok(Law { reciprocal: problem.held.is_empty() && friction.viscosity <= 0.0, ..law })
+    // Walls are not pushed, and Morris' friction does not act along the line between two.
+    Ok(Law { reciprocal: problem.held.is_empty() && morris <= 0.0, ..law })
 }
 
 /// The flow variables of a particle: density, p / ρ² and energy; 0 for walls.
@@ -82,8 +112,11 @@ fn push(
     let share = if wall { friction.wall } else { 1.0 };
     let (v, length) = (you.velocity - me.velocity, 0.5 * medium.range());
     let near = r.length_squared() + 0.01 * length * length;
-    let closing = v.dot(r).min(0.0) * length / near;
+    let (along, square) = (v.dot(r), r.length_squared());
+    let closing = along.min(0.0) * length / near;
     let artificial = friction.alpha * medium.sound * closing / (0.5 * (mine.x + density));
-    let laminar = friction.viscosity * (1.0 / mine.x + 1.0 / density);
-    (mine.y + pressure - share * artificial) * r - share * laminar * v
+    let [central, morris] = friction.factors(medium);
+    let central = if square > 0.0 { central / (mine.x + density) * along / square } else { 0.0 };
+    let morris = morris * (1.0 / mine.x + 1.0 / density);
+    (mine.y + pressure - share * (artificial + central)) * r - share * morris * v
 }

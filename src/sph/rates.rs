@@ -3,7 +3,7 @@
 
 use glam::DVec3;
 
-use super::{Friction, Medium};
+use super::{Form, Friction, Medium};
 
 /// The fastest modes of a fluid at rest.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -25,6 +25,7 @@ impl Rates {
     pub fn of(medium: &Medium, friction: Friction, xsph: f64) -> Self {
         let (volume, length) = (medium.volume(), 0.5 * medium.range());
         let (lattice, smoothed) = (lattice(medium), medium.smoothed());
+        let central = 2.0 * f64::from(medium.dimensions + 2);
         let mut most = Self::default();
         for way in [DVec3::X, DVec3::new(1.0, 1.0, 0.0), DVec3::ONE] {
             let way = if medium.dimensions == 2 { way.with_z(0.0) } else { way };
@@ -36,7 +37,11 @@ impl Rates {
                     let (slope, apart) = (volume * smoothed.gradient(*r), 1.0 - libm::cos(k.dot(*r)));
                     let near = r.length_squared() + 0.01 * length * length;
                     sound += slope * libm::sin(k.dot(*r)) * *r;
-                    viscous -= 2.0 * slope * apart;
+                    // Of the waves of a central force the longitudinal ones are damped fastest.
+                    viscous -= match friction.form {
+                        Form::Central => central * slope * r.dot(along).powi(2) / r.length_squared() * apart,
+                        Form::Morris => 2.0 * slope * apart,
+                    };
                     artificial -= slope * length * r.dot(along).powi(2) / near * apart;
                     drawn += volume * smoothed.kernel(*r) * apart;
                 }

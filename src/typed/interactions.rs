@@ -497,6 +497,8 @@ typed! {
     }
     /// A fluid by smoothed particle hydrodynamics, weakly compressible (Monaghan 1994); fixed particles are its walls.
     Fluid "fluid" fluid(spacing: f64) {
+        /// "viscous", for flows between walls without a surface, at Reynolds numbers up to some 100: other defaults of kernel, support, density_by, diffusion, negative_pressure, viscosity_form, walls and wall_mass; keys that are given win: general, viscous.
+        regime: Cow<'static, str>,
         /// The density at rest \[mass / length³, or mass / length² in two dimensions\].
         density: f64,
         /// The spacing of particles at rest, on a cubic lattice \[length\].
@@ -515,9 +517,11 @@ typed! {
         negative_pressure: bool,
         /// The artificial viscosity α (Monaghan 1992).
         alpha: f64,
-        /// The kinematic viscosity ν (Morris, Fox & Zhu 1997) \[length² / time\].
+        /// The kinematic viscosity ν, of the form viscosity_form \[length² / time\].
         viscosity: f64,
-        /// ε of XSPH: the fraction by which velocities move towards the mean of the neighbours in each step (Schechter & Bridson 2012).
+        /// The form of the viscosity: along the line between two particles, which preserves angular momentum (Monaghan & Gingold 1983; Cleary 1998; Monaghan 2005), or along the difference of their velocities, which is more accurate in channels on a lattice and takes the angular momentum of a fluid with a free surface (Morris, Fox & Zhu 1997): central, morris.
+        viscosity_form: Cow<'static, str>,
+        /// ε of XSPH: the fraction by which velocities move towards the mean of the neighbours in each step (Schechter & Bridson 2012), which takes energy and angular momentum, whatever the resolution.
         xsph: f64,
         /// The part of both viscosities that acts at walls; 0: free slip.
         wall_friction: f64,

@@ -34,6 +34,15 @@ pub fn default<T: Default>() -> T {
     T::default()
 }
 
+impl Fluid {
+    /// A fluid with the defaults of the regime `viscous`: for flows between walls, without a surface.
+    #[must_use]
+    pub fn viscous(spacing: f64) -> Self {
+        let keys = crate::forces::entry("fluid").map_or(&[][..], |entry| entry.keys);
+        Self { spacing, ..Self::of(&Settings::defaults(keys).under(keys, "regime", "viscous")) }
+    }
+}
+
 /// The value of a setting as a field has it.
 trait Field: Sized {
     fn of(settings: &Settings, key: &str) -> Self;
@@ -123,7 +132,7 @@ macro_rules! typed {
         }
         impl $type {
             #[allow(unused_variables, reason = "some have no settings")]
-            fn of(settings: &Settings) -> Self {
+            pub(super) fn of(settings: &Settings) -> Self {
                 Self { $($key: Field::of(settings, stringify!($key)),)* }
             }
             /// The same by the names of its keys.

@@ -35,7 +35,8 @@ impl Component for Silent {
         Vec::new()
     }
     fn resolved(&self, problem: &Problem) -> Result<Resolved, Error> {
-        let viscous_steps = sph::viscous_steps(&Self::medium(), 0.0, problem);
+        let none = sph::Friction { alpha: 0.0, viscosity: 0.0, form: sph::Form::Central, wall: 1.0 };
+        let viscous_steps = sph::viscous_steps(&Self::medium(), none, problem);
         Ok(Resolved { viscous_steps, ..Resolved::default() })
     }
     fn stage(&self, stage: motes::component::Stage, plan: &mut Plan, problem: &Problem) -> Result<(), Error> {

@@ -20,10 +20,20 @@ use crate::support::{Random, Shared};
 
 use Value::{Flag, Number};
 
+const NOT_ALONG: &str = "it divides a product with no distance, which is nothing";
+
 pub const EQUIVALENT: &[Equivalent] = &[
     same("sph/cubic", "return select(2.0", "<=", "<", "both halves have one value where they meet"),
     same("sph/tension", "const NOTHING", "1e-30", "1.5000000000000001e-30", "no particle is as near as that"),
     same("sph/tension", "let pull = ", "<=", "<", "both halves have one value where they meet"),
+    same("sph/pressure", "let central = ", "1.0", "1.5", NOT_ALONG),
+    same(
+        "sph/pressure",
+        "let central = ",
+        ">",
+        ">=",
+        "no two particles are at one place; tests/physics/fluids/turning.rs has two",
+    ),
     same("sph/cubic", "return select(-6.0", "<=", "<", "both halves have one value where they meet"),
     same("sph/", "return me.density > 0.0; }", ">", ">=", "fixed particles stand behind all that are evaluated"),
     same("sph/dense.wgsl", "return Particle(", "0.0", "1.0", "its pressure is not read"),
@@ -51,7 +61,7 @@ struct Case {
 fn cases() -> Vec<Case> {
     let case = |name, flat, side, walls, settings| Case { name, flat, side, walls, settings };
     vec![
-        case("in space", false, Side::Periodic, true, vec![]),
+        case("in space", false, Side::Periodic, true, vec![("viscosity_form", word("morris"))]),
         case("in the plane", true, Side::Open, true, vec![("kernel", word("wendland")), ("support", Number(2.6))]),
         case("a surface", true, Side::Open, true, vec![("tension", Number(0.7)), ("adhesion", Number(900.0))]),
         case(

@@ -59,7 +59,8 @@ impl Component for Silent {
     }
     fn resolved(&self, problem: &Problem) -> Result<Resolved, Error> {
         let medium = Self::medium(problem);
-        let viscous_steps = sph::viscous_steps(&medium, 0.0, problem);
+        let none = sph::Friction { alpha: 0.0, viscosity: 0.0, form: sph::Form::Central, wall: 1.0 };
+        let viscous_steps = sph::viscous_steps(&medium, none, problem);
         Ok(Resolved { cell_lists: vec![(medium.grid(problem)?, true)], viscous_steps, ..Resolved::default() })
     }
     fn stage(&self, stage: Stage, plan: &mut Plan, problem: &Problem) -> Result<(), Error> {

@@ -3,7 +3,7 @@
 use glam::{DVec3, DVec4, Vec4};
 use motes::kernel::{ACCELERATION, Array, Machine, Problem};
 use motes::settings::Value;
-use motes::sph::{DENSITY, Friction, Medium, Smoothing, Walls, pressure};
+use motes::sph::{DENSITY, Form, Friction, Medium, Smoothing, Walls, pressure};
 use motes::{Bounds, POSITION, Side, State, VELOCITY};
 
 use crate::fluids::{gpu, setup};
@@ -62,12 +62,16 @@ fn medium(flat: bool) -> Medium {
     Medium { density, spacing, support, smoothing, sound, exponent, negative, dimensions }
 }
 
-/// Σ m a and Σ m x × a are nothing; laminar friction does not act along the line between two, and turns a fluid.
+/// Σ m a and Σ m x × a are nothing; Morris' friction does not act along the line between two, and turns a fluid.
 #[test]
 fn momentum_is_kept_without_walls() {
     for flat in [false, true] {
         let particles = cloud(200, flat, false);
-        for (more, turns) in [(vec![("viscosity", Number(0.0))], false), (vec![], true)] {
+        let morris = vec![("viscosity_form", word("morris"))];
+        let none = vec![("viscosity", Number(0.0)), ("viscosity_form", word("morris"))];
+        for (more, form, turns) in
+            [(none, Form::Morris, false), (vec![], Form::Central, false), (morris, Form::Morris, true)]
+        {
             let acting = accelerations_in(&open(flat), &[fluid(&more)], &particles, 0.0);
             let each = || acting.iter().zip(particles.mass()).map(|(a, m)| *m * a.truncate());
             let (total, size) = (each().sum::<DVec3>().length(), each().map(DVec3::length).sum::<f64>());
@@ -78,7 +82,8 @@ fn momentum_is_kept_without_walls() {
             assert!((total > 1e-6 * size) == turns && (turns || total < 1e-13 * size), "{total:e} of {size}");
             // The law claims what is so.
             let problem = Problem::new(200, Machine::HOST).at(particles.position(), open(flat));
-            let friction = Friction { alpha: 0.3, viscosity: if turns { 0.07 } else { 0.0 }, wall: 0.6 };
+            let viscosity = if turns || form == Form::Central { 0.07 } else { 0.0 };
+            let friction = Friction { alpha: 0.3, viscosity, form, wall: 0.6 };
             let law = pressure(&medium(flat), friction, Walls::Mirror, &problem).expect("a law");
             assert_eq!(law.reciprocal, !turns);
         }

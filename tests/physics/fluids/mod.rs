@@ -12,8 +12,10 @@ mod keys;
 mod laplace;
 mod lockstep;
 mod rates;
+mod regime;
 mod smoothing;
 mod tension;
+mod turning;
 mod vortices;
 mod walls;
 

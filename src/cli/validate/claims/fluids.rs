@@ -26,8 +26,8 @@ pub const CLAIMS: &[Claim] = &[
         quantity: "rate of decay of velocities [1 / time]",
         published: 0.789_568,
         source: "Taylor & Green, Proc. R. Soc. A 158, 499, 1937: 8 π² / Re",
-        tolerance: 0.04,
-        because: "the rate is 3 to 4 % too fast at this spacing, and less at finer ones",
+        tolerance: 0.02,
+        because: "the rate is 1 to 2 % too fast at this spacing, and less at finer ones",
         control: &["force.0.viscosity=0.012"],
         long: true,
         measure: |course| {
