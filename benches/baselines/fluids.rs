@@ -8,7 +8,7 @@ use motes::kernel::{Backend, Plan};
 use motes::neighbors::Cells;
 use motes::settings::{Settings, Value};
 use motes::shapes::random::Random;
-use motes::sph::{self, Friction, Medium, Smoothing, Walls};
+use motes::sph::{self, Form, Friction, Medium, Smoothing, Walls};
 use motes::{Bounds, Error, POSITION, Setup, Side, Simulation, State, gpu, integrators};
 use serde_json::json;
 
@@ -115,7 +115,7 @@ fn measure(
 ) -> Result<Row, Failure> {
     let (setup, medium) = setup(count, support, kernel)?;
     let count = setup.check()?;
-    let friction = Friction { alpha: ALPHA, viscosity: 0.0, wall: 1.0 };
+    let friction = Friction { alpha: ALPHA, viscosity: 0.0, form: Form::Central, wall: 1.0 };
     let mut simulation = Simulation::new(&found.device, &found.queue, &setup)?;
     let positions: Vec<_> = setup.state.position().iter().map(|x| x.as_vec3().to_array()).collect();
     let mut water = Water::new(positions, setup.bounds.high.x, &medium, friction);

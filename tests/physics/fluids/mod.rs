@@ -1,6 +1,10 @@
 //! Fluids: what smooths them, their forces, and what they do, against quadrature, references, series and published numbers.
 
-#![allow(clippy::cast_possible_truncation, reason = "numbers are rounded to what f32 holds")]
+#![allow(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "numbers are rounded to what f32 holds, and numbers of steps are above 0"
+)]
 
 mod channels;
 mod columns;
