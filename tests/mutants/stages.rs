@@ -28,6 +28,11 @@ pub const FEW: usize = 500;
 /// and the last is not full.
 const MANY: usize = 740;
 
+/// How long a shader as it is may take with its compilation by the driver, on a machine that is busy.
+pub const PATIENCE: Duration = Duration::from_mins(1);
+/// How long a mutant may take, which may loop without an end.
+pub const SHORT: Duration = Duration::from_secs(5);
+
 /// A state, and a kernel to run in it.
 pub struct Stage {
     pub name: String,
@@ -57,7 +62,7 @@ impl Stage {
         let mut simulation = simulation.borrow_mut();
         let count = simulation.count();
         let gpu = simulation.backend();
-        gpu.limit_submissions(Duration::from_millis(80), Duration::from_secs(5));
+        gpu.limit_submissions(Duration::from_millis(80), PATIENCE);
         gpu.compile(&plan).expect("a good plan");
         gpu.keep_pipelines();
         let clock = pollster::block_on(gpu.world()).expect("a clock");
@@ -118,6 +123,10 @@ impl Stage {
             return Ok(Some("nothing is written".to_owned()));
         }
         Ok(all.iter().find(|v| !good(v)).map(|verdict| format!("{verdict:?}")))
+    }
+    /// How long a run may take from here on.
+    pub fn allow(&self, patience: Duration) {
+        self.simulation.borrow_mut().backend().limit_submissions(Duration::from_millis(80), patience);
     }
     /// Drops the pipelines of mutants.
     pub fn forget(&self) {
