@@ -99,7 +99,7 @@ fn rounds(tree: &Tree, machine: &Machine) -> u32 {
     // each holds eight of the next, and evaluate two leaves at once; a lane alone looks at a node, or at a body.
     let (walk, search) = if machine.subgroup == 8 {
         let looks = leaves / 7 + 10;
-        (5 * looks + leaves / 2 + 12 * (leaves / 128 + 2) + 2 * group, (2 * group + 16) * looks)
+        (5 * looks + leaves / 2 + 6 * (leaves / 64 + 2) + 2 * group, 2 * group * looks)
     } else {
         let nodes = 2 * leaves + 32;
         (2 * (nodes + u64::from(LEAF) * leaves) + group, group * nodes)
@@ -147,7 +147,6 @@ pub fn kernel(law: Law, tree: &Tree, problem: &Problem) -> Result<Kernel, Error>
     let each = pair_evaluations(tree, problem);
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "few")]
     let mut groups = (machine.meetings as f64 / each / f64::from(GROUP)).clamp(1.0, f64::from(TARGETS / GROUP)) as u32;
-    constants.extend(shader.reflection().known(&[("LEVELS", f64::from(tree.height() + 1))]));
     if let Some(kept) = shader.reflection().binding("tree_kept") {
         constants.push(("MOST", f64::from(machine.turns)));
         groups = groups.min(u32::try_from(KEPT / kept.stride / u64::from(GROUP)).unwrap_or(groups)).max(1);
