@@ -87,7 +87,6 @@ register! {
     flock
     granular
     packing
-    stress
     fluid
     population
     thermo

@@ -19,5 +19,4 @@ mod primitives;
 mod references;
 mod repeat;
 mod state;
-mod stress;
 mod tree;

@@ -16,7 +16,6 @@ mod equivalent_primitives;
 mod equivalents;
 mod ewald;
 mod fluids;
-mod grains;
 mod held;
 mod implicit;
 mod joint;
@@ -191,7 +190,6 @@ fn every_mutant_is_noticed() {
         pairs::EQUIVALENT,
         repeat::EQUIVALENT,
         columns::EQUIVALENT,
-        grains::EQUIVALENT,
         matter::EQUIVALENT,
         barostats::EQUIVALENT,
         crowds::EQUIVALENT,
