@@ -4,9 +4,8 @@
 const WORKGROUP: u32 = 32u;
 // The stack is in the order of levels, the lowest on top, and so it stays: children are put where their parents were, in
 // their order. A level's nodes are taken when fewer than a workgroup stand above them, and those are taken with them;
-// so whenever children come to a level it is empty, and they are twice a workgroup at most. Below the root of a tree of
-// 2²⁷ bodies there are 25 levels.
-const WAITING: u32 = 2u * WORKGROUP * 25u;
+// so whenever children come to a level it is empty, and they are twice a workgroup at most.
+override WAITING: u32; // twice a workgroup for each level of the tree
 // What votes are about.
 const FAR: u32 = 0u;
 const NEAR: u32 = 1u;
@@ -15,30 +14,54 @@ const OPEN: u32 = 2u;
 var<workgroup> waits: array<u32, WAITING>;
 var<workgroup> votes: array<atomic<u32>, 3>;
 var<workgroup> added: vec3u;
+var<workgroup> last_opened: bool;
 // Less than a tile is left when as many nodes as there are lanes are tested.
 var<workgroup> fars: array<u32, 2u * WORKGROUP>;
 var<workgroup> leaves: array<u32, 2u * WORKGROUP>;
-var<workgroup> tile: array<Group, WORKGROUP>;
+// What is evaluated together, in whole vectors: centre and mass of a group, or of a body; a group's second moments.
 var<workgroup> places: array<vec4f, WORKGROUP>;
-var<workgroup> slots: array<u32, WORKGROUP>;
+var<workgroup> moments_a: array<vec4f, WORKGROUP>; // xx, yy, zz, xy
+var<workgroup> moments_b: array<vec4f, WORKGROUP>; // xz, yz, half the trace
 var<workgroup> ids: array<u32, WORKGROUP>;
 
 fn votes_for(what: u32) -> u32 { return countOneBits(atomicLoad(&votes[what])); }
 
-// The interaction of a lane's target with the tile.
+// The interaction of a lane's target with an entry of the tile.
+fn meet_group(me: Particle, i: u32, sum: ptr<function, Sum>) {
+    let p = places[i];
+    let a = moments_a[i];
+    let b = moments_b[i];
+    distant(me, Group(p.w, a.xyz, vec3f(a.w, b.xy), b.z), shortest(p.xyz - me.position), sum);
+}
+fn meet_body(me: Particle, i: u32, sum: ptr<function, Sum>) {
+    let p = places[i];
+    gather(me, Particle(ids[i], p.xyz, p.w), shortest(p.xyz - me.position), sum);
+}
+
+// The same with so many entries; drivers unroll a loop of a known length.
 fn meet_groups(me: Particle, some: u32, sum: ptr<function, Sum>) {
     var part = Sum();
-    for (var i = 0u; i < some; i += 1u) { distant(me, tile[i], shortest(places[i].xyz - me.position), &part); }
+    if some == WORKGROUP {
+        for (var i = 0u; i < WORKGROUP; i += 1u) { meet_group(me, i, &part); }
+    } else {
+        for (var i = 0u; i < some; i += 1u) { meet_group(me, i, &part); }
+    }
+    merge(sum, part);
+}
+fn meet_bodies(me: Particle, some: u32, sum: ptr<function, Sum>) {
+    var part = Sum();
+    if some == WORKGROUP {
+        for (var i = 0u; i < WORKGROUP; i += 1u) { meet_body(me, i, &part); }
+    } else {
+        for (var i = 0u; i < some; i += 1u) { meet_body(me, i, &part); }
+    }
     merge(sum, part);
 }
 
-fn meet_bodies(me: Particle, mine: u32, some: u32, sum: ptr<function, Sum>) {
-    var part = Sum();
-    for (var i = 0u; i < some; i += 1u) {
-        let p = places[i];
-        if slots[i] != mine && slots[i] < world.count { gather(me, Particle(ids[i], p.xyz, p.w), shortest(p.xyz - me.position), &part); }
-    }
-    merge(sum, part);
+// A body into the tile. Beyond the last slot it is any, and not evaluated.
+fn load_body(lane: u32, slot: u32) {
+    places[lane] = tree_body[slot];
+    ids[lane] = tree_id[slot];
 }
 
 @compute @workgroup_size(WORKGROUP)
@@ -53,7 +76,12 @@ fn walk(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: ve
     var far = 0u;
     var near = 0u;
     var top = 1u;
-    if lane == 0u { waits[0] = 1u; }
+    // The last leaf, if it is not full; otherwise none.
+    let partial = select(0u, (1u << tree.height) + last / LEAF, world.count % LEAF != 0u);
+    if lane == 0u {
+        waits[0] = 1u;
+        last_opened = false;
+    }
     while top > 0u {
         let some = min(top, WORKGROUP);
         top -= some;
@@ -65,12 +93,15 @@ fn walk(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: ve
         let itself = real && is_own(node, depth, own);
         let open = itself || (real && reaches_any(node, here));
         let kind = select(FAR, select(OPEN, NEAR, depth == tree.height), open);
-        if real { atomicOr(&votes[kind], 1u << lane); }
+        // The leaves of the group itself, and the last one where it is not full, are evaluated at the end.
+        let listed = real && !(kind == NEAR && (itself || node == partial));
+        if open && !itself && node == partial { last_opened = true; }
+        if listed { atomicOr(&votes[kind], 1u << lane); }
         workgroupBarrier();
         let before = countOneBits(atomicLoad(&votes[kind]) & ((1u << lane) - 1u));
-        if real && kind == FAR { fars[far + before] = node; }
-        if real && kind == NEAR { leaves[near + before] = node; }
-        if real && kind == OPEN {
+        if listed && kind == FAR { fars[far + before] = node; }
+        if listed && kind == NEAR { leaves[near + before] = node; }
+        if listed && kind == OPEN {
             waits[top + 2u * before] = 2u * node;
             waits[top + 2u * before + 1u] = 2u * node + 1u;
         }
@@ -86,8 +117,10 @@ fn walk(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: ve
             far -= full;
             let n = fars[far + lane];
             workgroupBarrier();
-            tile[lane] = group_at(n);
-            places[lane] = tree_center[n];
+            let g = group_at(n);
+            places[lane] = vec4f(tree_center[n].xyz, g.mass);
+            moments_a[lane] = vec4f(g.diagonal, g.mixed.x);
+            moments_b[lane] = vec4f(g.mixed.yz, g.half_trace, 0.0);
             workgroupBarrier();
             meet_groups(me, full, &sum);
         }
@@ -95,15 +128,24 @@ fn walk(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: ve
             let full = min(near, WORKGROUP / LEAF);
             near -= full;
             let leaf = leaves[near + lane / LEAF];
-            let slot = (leaf - (1u << tree.height)) * LEAF + lane % LEAF;
             workgroupBarrier();
-            places[lane] = tree_body[min(slot, last)];
-            ids[lane] = tree_id[min(slot, last)];
-            slots[lane] = slot;
+            load_body(lane, (leaf - (1u << tree.height)) * LEAF + lane % LEAF);
             workgroupBarrier();
-            meet_bodies(me, k, full * LEAF, &sum);
+            meet_bodies(me, full * LEAF, &sum);
         }
     }
+    let others = workgroupUniformLoad(&last_opened);
+    load_body(lane, (partial - (1u << tree.height)) * LEAF + lane);
+    workgroupBarrier();
+    meet_bodies(me, select(0u, world.count % LEAF, others), &sum);
+    workgroupBarrier();
+    load_body(lane, mine * GROUP + lane);
+    workgroupBarrier();
+    var part = Sum();
+    for (var i = 0u; i < min(GROUP, world.count - mine * GROUP); i += 1u) {
+        if i != lane { meet_body(me, i, &part); }
+    }
+    merge(&sum, part);
     if k < last_target() && acts_on(me) { deliver(me, sum); }
     check_turns(me);
 }

@@ -144,6 +144,7 @@ pub fn kernel(law: Law, tree: &Tree, problem: &Problem) -> Result<Kernel, Error>
     let mut constants = problem.constants(&shader);
     constants.extend([("GROUP", f64::from(GROUP)), ("LEAF", f64::from(LEAF))]);
     constants.extend(law.mark());
+    constants.extend(shader.reflection().known(&[("WAITING", f64::from(2 * GROUP * (tree.height() + 1)))]));
     let each = pair_evaluations(tree, problem);
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "few")]
     let mut groups = (machine.meetings as f64 / each / f64::from(GROUP)).clamp(1.0, f64::from(TARGETS / GROUP)) as u32;

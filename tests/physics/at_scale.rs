@@ -69,8 +69,8 @@ fn a_cold_sphere_collapses_and_settles() {
     let end = snapshot(&mut simulation);
     let sums = Energy::of(&end).expect("energies");
     let (virial, half) = (-sums.kinetic / sums.potential, crate::support::lagrangian(&end, 0.5));
-    // Three runs ended with −K/W of 0.476 to 0.505 and a radius of 0.352 to 0.376; and as much again.
-    assert!((0.46..0.52).contains(&virial) && (0.34..0.39).contains(&half), "{virial} {half}");
+    // Four runs, one of them on another driver, ended with −K/W of 0.476 to 0.505 and a radius of 0.340 to 0.376; and half as much again.
+    assert!((0.46..0.52).contains(&virial) && (0.322..0.394).contains(&half), "{virial} {half}");
 }
 
 #[test]

@@ -9,7 +9,7 @@ use serde_json::{Value, json};
 use super::super::args::BenchArgs;
 use super::super::failure::Failure;
 use super::spirv;
-use super::{median, times};
+use super::{MOST, Rerun, median, times};
 
 /// Measures each kernel of the arguments' scene.
 pub async fn kernels(args: &BenchArgs, found: &Found) -> Result<Value, Failure> {
@@ -17,7 +17,9 @@ pub async fn kernels(args: &BenchArgs, found: &Found) -> Result<Value, Failure> 
     let setup = Scene::load(&Source::find(word)?, &args.overrides, &Options::default())?.setup();
     let count = setup.state.len();
     let mut simulation = Simulation::new(&found.device, &found.queue, &setup)?;
-    let steps = times(&mut simulation, args.repeat.max(1))?;
+    let mut rerun = Rerun::of(&mut simulation).await?;
+    let steps = times(&mut simulation, &mut rerun, args.repeat.max(1))?;
+    rerun.prepare(&mut simulation, MOST)?;
     let (rounds, whole) = rounds(args, &mut simulation).await?;
     let limit = simulation.backend().machine().workgroups;
     let (plan, rows) = simulation.step_plan();

@@ -74,7 +74,7 @@ fn more_than_one_dispatch_can_meet() {
     let count = 65_537usize;
     let particles = crate::support::cloud(count, 7);
     let mut gpu = gpu(&shared, count);
-    let machine = Machine { invocations: 1, ..gpu.machine() };
+    let machine = Machine { invocations: 1, meetings: 1 << 30, ..gpu.machine() };
     gpu.pretend(machine);
     let softening = 0.171_875; // held by f32
     let law = || force("gravity", &[("softening", motes::settings::Value::Number(softening))]);

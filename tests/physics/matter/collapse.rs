@@ -43,7 +43,8 @@ fn run_out(more: &[(usize, &str, f64)]) -> f64 {
     };
     let [early, last] = [&all[1], &all[2]].map(front);
     println!("{more:?}: height {height}, front {early} {last}");
-    assert!((last - early).abs() < 1.5 * GRAIN, "it runs yet");
+    // The front is counted in grains, of which the last two may lie loose.
+    assert!((last - early).abs() < 2.5 * GRAIN, "it runs yet: {early} {last}");
     (last - WIDTH) / height
 }
 

@@ -148,7 +148,7 @@ fn forces_without_a_virial_are_refused() {
     };
     let said = limited("sum.pull / (1.0 + length(sum.pull))");
     assert!(said.contains("do not add up"), "{said}");
-    let said = limited("normalize(sum.pull)");
+    let said = limited("sum.pull / length(sum.pull)");
     assert!(said.contains("not finite"), "{said}");
     // Forces from one side push the box as a whole.
     let said = why(force("flee", &[]));

@@ -131,13 +131,17 @@ fn a_led_one_is_where_its_motion_says_at_every_step() {
                 let got = places[id].truncate().as_dvec3();
                 // Two units in the last place of the numbers that are added: the place, the way there, and the arm, which
                 // the last place of an angle of several turns moves as often as it is radians.
-                let angle = motion.keys.iter().map(|key| key.turn.length()).fold(1.0, f64::max);
-                let size = want.length() + (want - home).length() + angle * (home - motion.about).length();
+                let size = want.length() + (want - home).length() + angle(motion) * (home - motion.about).length();
                 let error = (got - want).length() / (f64::from(f32::EPSILON) * size);
                 assert!(error < 2.0, "{}, {}, step {step}: {got} is {error} ulp from {want}", entry.name, motion.name);
             }
         }
     }
+}
+
+/// The largest angle of a motion, and 1 at least.
+fn angle(motion: &Motion) -> f64 {
+    motion.keys.iter().map(|key| key.turn.length()).fold(1.0, f64::max)
 }
 
 /// However late: the time of a key is given in steps, not in seconds that run out of digits.
@@ -161,8 +165,10 @@ fn a_motion_late_in_a_run_is_as_exact() {
             let home = particles.position()[7 - n];
             let want = motion.place(home, (2_999_995.0 + f64::from(step)) * DT);
             let got = places[7 - n].truncate().as_dvec3();
-            // What repeats has turned 4e5 times: its phase is a product of that and a rest in f32, good to 0.03 steps.
-            let allowed = if motion.repeat { 0.05 } else { 1e-6 };
+            // What repeats has turned 4e5 times: its phase is a product of that and a rest in f32, good to 0.03 steps. All else is as good as
+            // early in a run.
+            let size = want.length() + (want - home).length() + angle(motion) * (home - motion.about).length();
+            let allowed = if motion.repeat { 0.05 } else { 2.0 * f64::from(f32::EPSILON) * size };
             assert!((got - want).length() < allowed, "{}, step {step}: {got} is not {want}", motion.name);
         }
     }
