@@ -38,22 +38,28 @@ fn meet_body(me: Particle, i: u32, sum: ptr<function, Sum>) {
     gather(me, Particle(ids[i], p.xyz, p.w), shortest(p.xyz - me.position), sum);
 }
 
-// The same with so many entries; drivers unroll a loop of a known length.
+// So many far groups, four in a turn while there are four.
 fn meet_groups(me: Particle, some: u32, sum: ptr<function, Sum>) {
     var part = Sum();
-    if some == WORKGROUP {
-        for (var i = 0u; i < WORKGROUP; i += 1u) { meet_group(me, i, &part); }
-    } else {
-        for (var i = 0u; i < some; i += 1u) { meet_group(me, i, &part); }
+    let whole = some - some % 4u;
+    var i = 0u;
+    for (; i < whole; i += 4u) {
+        meet_group(me, i, &part);
+        meet_group(me, i + 1u, &part);
+        meet_group(me, i + 2u, &part);
+        meet_group(me, i + 3u, &part);
     }
+    for (; i < some; i += 1u) { meet_group(me, i, &part); }
     merge(sum, part);
 }
-fn meet_bodies(me: Particle, some: u32, sum: ptr<function, Sum>) {
+// Whole leaves, four bodies in a turn.
+fn meet_leaves(me: Particle, some: u32, sum: ptr<function, Sum>) {
     var part = Sum();
-    if some == WORKGROUP {
-        for (var i = 0u; i < WORKGROUP; i += 1u) { meet_body(me, i, &part); }
-    } else {
-        for (var i = 0u; i < some; i += 1u) { meet_body(me, i, &part); }
+    for (var i = 0u; i < some * LEAF; i += 4u) {
+        meet_body(me, i, &part);
+        meet_body(me, i + 1u, &part);
+        meet_body(me, i + 2u, &part);
+        meet_body(me, i + 3u, &part);
     }
     merge(sum, part);
 }
@@ -76,8 +82,10 @@ fn walk(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: ve
     var far = 0u;
     var near = 0u;
     var top = 1u;
-    // The last leaf, if it is not full; otherwise none.
-    let partial = select(0u, (1u << tree.height) + last / LEAF, world.count % LEAF != 0u);
+    // The last leaf, where it is not full.
+    let rest = world.count % LEAF;
+    var partial = 0u;
+    if rest != 0u { partial = (1u << tree.height) + last / LEAF; }
     if lane == 0u {
         waits[0] = 1u;
         last_opened = false;
@@ -131,17 +139,17 @@ fn walk(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: ve
             workgroupBarrier();
             load_body(lane, (leaf - (1u << tree.height)) * LEAF + lane % LEAF);
             workgroupBarrier();
-            meet_bodies(me, full * LEAF, &sum);
+            meet_leaves(me, full, &sum);
         }
     }
+    var part = Sum();
     let others = workgroupUniformLoad(&last_opened);
     load_body(lane, (partial - (1u << tree.height)) * LEAF + lane);
     workgroupBarrier();
-    meet_bodies(me, select(0u, world.count % LEAF, others), &sum);
+    for (var i = 0u; i < select(0u, rest, others); i += 1u) { meet_body(me, i, &part); }
     workgroupBarrier();
     load_body(lane, mine * GROUP + lane);
     workgroupBarrier();
-    var part = Sum();
     for (var i = 0u; i < min(GROUP, world.count - mine * GROUP); i += 1u) {
         if i != lane { meet_body(me, i, &part); }
     }

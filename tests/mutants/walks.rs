@@ -30,8 +30,9 @@ const SET_FIRST: &str = "it is set before it is looked at";
 pub const EQUIVALENT: &[Equivalent] = &[
     same("tree_geometric", "fn demand_of", "0.0", "1.0", "what a group demands is not read"),
     same("tree_relative", "return d <=", ">", ">=", EDGE),
-    same("tree_tile", "const WAITING", "2u", "3u", ROOM),
-    same("tree_tile", "const WAITING", "25u", "26u", ROOM),
+    same("tree_tile", "for (; i < whole", "<", ">", "the loop after it takes what it leaves"),
+    same("tree_tile", "var partial =", "0u", "1u", "the root is a leaf only of its own group"),
+    same("tree_tile", "moments_b[lane] =", "0.0", "1.0", "nothing reads it"),
     same("tree_tile", "var<workgroup> votes", "3", "4", ROOM),
     same("tree_tile", "var<workgroup> fars", "2u", "3u", ROOM),
     same("tree_tile", "var<workgroup> leaves", "2u", "3u", ROOM),
@@ -54,13 +55,6 @@ pub const EQUIVALENT: &[Equivalent] = &[
         "what is written behind the end of a list is written over",
     ),
     same("tree_tile", "var far = 0u;", "0u", "1u", "fields and lists begin with zeros; node 0 is no particle"),
-    same(
-        "tree_tile",
-        "var near = 0u;",
-        "0u",
-        "1u",
-        "lists begin with zeros, and 0 is no leaf: its particles are behind the last",
-    ),
     same("tree_tile", "while top > 0u", ">", ">=", "it turns idly until the driver ends the loop").sometimes(),
     same("tree_alone", "var slot = 0u;", "0u", "1u", SET_FIRST),
     same("tree_alone", "more = node > 1u;", "1u", "2u", "it is odd"),
@@ -221,12 +215,15 @@ pub fn all(shared: &Shared, stages: &mut Vec<Stage>) {
     }));
     for (name, machine) in walkers(shared) {
         // The law that compiles fastest is asked first.
-        let openings = [Opening::Geometric { theta: 1.0 }, Opening::Relative { alpha: 0.5, g: 1e-9, theta: 1.0 }];
-        for opening in openings {
-            let scene = scene(device, machine, &coincident(), 3.7, Box::new(Counted(opening)));
-            let words = 4 * coincident().len() as u64;
+        let relative = Opening::Relative { alpha: 0.5, g: 1e-9, theta: 1.0 };
+        let geometric = Opening::Geometric { theta: 1.0 };
+        // Every leaf is opened, of which the last has two of four bodies.
+        let every = Opening::Geometric { theta: 0.01 };
+        for (opening, bodies) in [(geometric, coincident()), (relative, coincident()), (every, bodies(1022))] {
+            let scene = scene(device, machine, &bodies, 3.7, Box::new(Counted(opening)));
+            let words = 4 * bodies.len() as u64;
             stages.push(scene.expected(
-                &format!("walk {name}, counted by {opening}"),
+                &format!("walk {name}, {} counted by {opening}", bodies.len()),
                 ACCELERATION.name,
                 words,
                 scene.plan(),

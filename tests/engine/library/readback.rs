@@ -71,6 +71,7 @@ fn a_look_returns_at_once_while_the_device_works() {
         took = start.elapsed();
     }
     // Steps of 256 million pairs for some tenths of a second, on a fast device as on a slow one.
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a small whole number")]
     let steps = (0.3 / took.as_secs_f64()).clamp(2.0, 1000.0) as u32;
     // In an encoder of the caller's steps wait for nothing either.
     let submit = |simulation: &mut Simulation<Gpu>| {
