@@ -9,14 +9,15 @@
 //   energy      of the springs, ∫ N dδ + kₜ ξ² / 2 + kᵣ ψ² / 2, as they are at the start of the step
 //   heat        the power of all these against the motion, less what springs gain; the speed of the middle of the kick is v − F dt / 2 m
 struct Pair {
-    @size(8) unused_word: u32,
+    @size(12) unused_word: u32,
     stiffness: f32, damping: f32, friction: f32, shear: f32, drag: f32,
     rolling: f32, rolling_damping: f32, torsion: f32, hertz: u32, elastic: u32,
+    pull: f32, spread: f32, reach: f32,
 }
 // `rest` is the moment about the contact of what rolls there.
-struct Meeting { n: vec3f, overlap: f32, v: vec3f, radius: f32, spin: vec3f, mass: f32, rest: f32 }
-// What a contact keeps from step to step: ξ, ψ across n, and ψ about n.
-struct Wound { slide: vec3f, roll: vec3f, twist: f32 }
+struct Meeting { n: vec3f, overlap: f32, v: vec3f, radius: f32, spin: vec3f, mass: f32, rest: f32, smaller: f32 }
+// What a contact keeps from step to step: ξ, ψ across n, ψ about n, and whether liquid bridges it.
+struct Wound { slide: vec3f, roll: vec3f, twist: f32, wet: f32 }
 // `turn` is the torque beside that of the tangential force.
 struct Touch { push: vec3f, turn: vec3f, wound: Wound, energy: f32, heat: f32 }
 
@@ -102,7 +103,7 @@ fn touch(pair: Pair, at: Meeting, last: Wound) -> Touch {
         energy += 0.5 * back * last.twist * last.twist;
         heat -= torsion * about + gain(back, softer, vec3f(last.twist), vec3f(twist)) / 3.0;
     }
-    return Touch(tangential - normal * n, turn, Wound(wound, roll, twist), energy, heat);
+    return Touch(tangential - normal * n, turn, Wound(wound, roll, twist, last.wet), energy, heat);
 }
 
 // Whether spheres touch, or a contact may have ended in the last step: it parts them by less than a sixteenth of the reduced radius.

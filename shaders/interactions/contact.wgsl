@@ -1,4 +1,5 @@
-// Spheres that overlap by δ push, rub and roll on each other, by the contact of grains/touch. With n from me to you:
+// Spheres that overlap by δ push, rub and roll on each other, by the contact of grains/touch; bridges of liquid pull, by grains/bridge. With n from
+// me to you:
 //   torque  (R − δ / 2) n × F,  and what resists rolling and torsion
 struct Sum { force: vec3f, torque: vec3f, energy: f32, heat: f32 }
 
@@ -21,23 +22,30 @@ fn gather(me: Particle, you: Particle, r: vec3f, sum: ptr<function, Sum>) {
     let distance = length(r);
     let overlap = mine.w + yours.w - distance;
     let radius = reduced(mine.w, yours.w);
+    let smaller = min(mine.w, yours.w);
+    let pair = pair_table[pair_index(species[me.index], species[you.index])];
+    let meets = may_touch(overlap, radius) || -overlap < pair.reach * smaller;
     // Two particles at the same position have no direction between them.
-    if distance > 0.0 && mine.w > 0.0 && yours.w > 0.0 && may_touch(overlap, radius) {
+    if distance > 0.0 && mine.w > 0.0 && yours.w > 0.0 && meets {
         let n = r / distance;
         // From the centres to the middle of the overlap.
         let my_arm = mine.w - 0.5 * overlap;
         let your_arm = yours.w - 0.5 * overlap;
         let v = velocity_of(me) - velocity_of(you) + cross(my_arm * mine.xyz + your_arm * yours.xyz, n);
         let rest = reduced(moment(me.mass, mine.w), moment(you.mass, yours.w));
-        let at = Meeting(n, overlap, v, radius, mine.xyz - yours.xyz, reduced(me.mass, you.mass), rest);
+        let at = Meeting(n, overlap, v, radius, mine.xyz - yours.xyz, reduced(me.mass, you.mass), rest, smaller);
 
         let slide = vec3f(recall(you, 0u), recall(you, 1u), recall(you, 2u));
         let roll = vec3f(recall(you, 3u), recall(you, 4u), recall(you, 5u));
-        let last = Wound(slide, roll, recall(you, 6u));
-        let pair = pair_table[pair_index(species[me.index], species[you.index])];
+        let last = Wound(slide, roll, recall(you, 6u), recall(you, 7u));
         // Each has half of what a pair has, and all of it where the other has no mass. The visit halves energies.
         var share = select(1.0, 0.5, you.mass > 0.0);
         if me.mass <= 0.0 { share = 0.0; }
+        let liquid = bridged(pair, at, last.wet);
+        remember(you, 7u, liquid.wet);
+        (*sum).force += liquid.pull * n;
+        (*sum).energy += 2.0 * share * liquid.energy;
+        (*sum).heat += share * liquid.heat;
         if overlap > 0.0 {
             let contact = touch(pair, at, last);
             remember(you, 0u, contact.wound.slide.x);

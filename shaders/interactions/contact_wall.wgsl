@@ -1,4 +1,5 @@
-// A grain of radius R that overlaps a wall by δ = R − φ pushes, rubs and rolls on it, by the contact of grains/touch. With n into the wall:
+// A grain of radius R that overlaps a wall by δ = R − φ pushes, rubs and rolls on it, by the contact of grains/touch; bridges of liquid pull, by
+// grains/bridge. With n into the wall:
 //   v = v₁ + (R − δ / 2) ω₁ × n − u(x),  u the velocity of the wall there;  reduced mass and radius are those of the grain
 //   torque  (R − δ / 2) n × F,  and what resists rolling and torsion
 // The history of each contact is kept twice: one half holds the values at the start of the step, and the other those it writes.
@@ -7,6 +8,7 @@ struct Params {
     position: vec3f, radius: f32, size: vec3f, shape: u32, axis: vec3f, side: f32, species: u32, contacts: u32,
     stiffness: f32, damping: f32, friction: f32, shear: f32, drag: f32,
     rolling: f32, rolling_damping: f32, torsion: f32, hertz: u32, elastic: u32,
+    pull: f32, spread: f32, reach: f32,
 }
 struct Frame { centre: vec3f, pivot: vec3f, turn: vec4f, velocity: vec3f, spin: vec3f }
 
@@ -50,6 +52,7 @@ fn force(me: Particle) -> vec4f {
     let pair = Pair(
         0u, params.stiffness, params.damping, params.friction, params.shear, params.drag,
         params.rolling, params.rolling_damping, params.torsion, params.hertz, params.elastic,
+        params.pull, params.spread, params.reach,
     );
     var push = vec3f();
     var turn = vec3f();
@@ -69,13 +72,17 @@ fn force(me: Particle) -> vec4f {
         let arm = mine.w - 0.5 * overlap;
         let moving = frame.velocity + cross(frame.spin, frame.centre + r + arm * n - frame.pivot);
         let v = velocity_of(me) + arm * cross(mine.xyz, n) - moving;
-        if meets && may_touch(overlap, mine.w) {
+        if meets && (may_touch(overlap, mine.w) || -overlap < params.reach * mine.w) {
             let rest = 1.4 * me.mass * mine.w * mine.w;
             let last = place(me.index, world.step, contact);
             let slide = vec3f(recall(last, 0u), recall(last, 1u), recall(last, 2u));
             let roll = vec3f(recall(last, 3u), recall(last, 4u), recall(last, 5u));
-            let at = Meeting(n, overlap, v, mine.w, mine.xyz - frame.spin, me.mass, rest);
-            let wound = Wound(slide, roll, recall(last, 6u));
+            let at = Meeting(n, overlap, v, mine.w, mine.xyz - frame.spin, me.mass, rest, mine.w);
+            let wound = Wound(slide, roll, recall(last, 6u), recall(last, 7u));
+            let liquid = bridged(pair, at, wound.wet);
+            push += liquid.pull * n;
+            energy += liquid.energy;
+            heat += liquid.heat;
             if overlap > 0.0 {
                 let contact_force = touch(pair, at, wound);
                 push += contact_force.push;
@@ -86,6 +93,7 @@ fn force(me: Particle) -> vec4f {
             } else {
                 heat += left(pair, at, wound);
             }
+            kept.wet = liquid.wet;
         }
         remember(next, 0u, kept.slide.x);
         remember(next, 1u, kept.slide.y);
@@ -94,6 +102,7 @@ fn force(me: Particle) -> vec4f {
         remember(next, 4u, kept.roll.y);
         remember(next, 5u, kept.roll.z);
         remember(next, 6u, kept.twist);
+        remember(next, 7u, kept.wet);
     }
     torque[me.index] += vec4f(turn, heat);
     if meets { return vec4f(push, energy) / me.mass; }

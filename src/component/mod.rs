@@ -21,12 +21,13 @@ use glam::{DVec3, Vec4};
 use crate::crowds::Press;
 use crate::error::Error;
 use crate::floor_plan::FloorPlan;
-use crate::grains::Material;
+use crate::grains::{ContactForce, Material};
 use crate::kernel::{Bounds, Column, Plan, Problem, Way};
 use crate::neighbors::Grid;
 use crate::settings::{Key, Settings, Value};
 use crate::solids::Standing;
 use crate::sph::{Continuum, Rates};
+use crate::state::State;
 use crate::visit::Law;
 
 /// A component: an interaction, a constraint or an updater. A simulation keeps a copy, from which it rewrites its plan when it
@@ -47,6 +48,13 @@ pub trait Component: Copied + Send + Sync {
     /// Its laws, in the order in which they are evaluated; a later one may read what an earlier one wrote.
     fn laws(&self) -> Vec<Law> {
         Vec::new()
+    }
+    /// The forces of its contacts between grains, or of grains with its wall, in a state; `earlier` is that of [`Component::own_columns`].
+    ///
+    /// # Errors
+    /// [`Error::Setting`] where the state lacks its motion.
+    fn contacts(&self, _state: &State, _bounds: &Bounds, _earlier: usize) -> Result<Vec<ContactForce>, Error> {
+        Ok(Vec::new())
     }
     /// What pairs beyond its cut-off radius lack, by pairs of species; empty where nothing is known to lack.
     fn tails(&self) -> Vec<Tail> {

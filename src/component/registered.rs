@@ -4,8 +4,10 @@ use super::misnamed::misnamed;
 use super::{Change, Component, Properties, Resolved, Setting, Stage, Tail};
 use crate::error::Error;
 use crate::floor_plan::FloorPlan;
+use crate::grains::ContactForce;
 use crate::kernel::{Bounds, Column, Plan, Problem};
 use crate::settings::{Key, Settings, unknown};
+use crate::state::State;
 use crate::visit::Law;
 
 /// A function that builds a component from checked settings.
@@ -77,6 +79,9 @@ impl Component for Registered {
     }
     fn laws(&self) -> Vec<Law> {
         self.made.laws()
+    }
+    fn contacts(&self, state: &State, bounds: &Bounds, earlier: usize) -> Result<Vec<ContactForce>, Error> {
+        self.made.contacts(state, bounds, earlier)
     }
     fn tails(&self) -> Vec<Tail> {
         self.made.tails()

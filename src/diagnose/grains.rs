@@ -44,7 +44,34 @@ pub fn remarks(setup: &Setup) -> Vec<Remark> {
     remarks.extend(light_walls(setup));
     remarks.extend(long_step(setup, radii, &materials));
     remarks.extend(overlaps(setup, radii));
+    remarks.extend(pressed(setup, radii, &materials));
     remarks
+}
+
+/// The largest overlap at which bridges of liquid may hold two grains, as a part of the radius.
+const PRESSED: f64 = 0.05;
+
+/// Grains that bridges of liquid press into each other: the overlap of two of the smallest size at which the contact balances the bridge.
+fn pressed(setup: &Setup, radii: &[f64], materials: &[Material]) -> Option<Remark> {
+    let grains = (0..radii.len()).filter(|i| radii[*i] > 0.0 && setup.state.is_active(*i));
+    let grain = grains.min_by(|a, b| radii[*a].total_cmp(&radii[*b]))?;
+    let radius = radii[grain];
+    let overlap = |material: &Material| {
+        let pull = material.pull * radius;
+        match material.model {
+            Model::Linear => pull / material.stiffness,
+            Model::Hertz => (pull / (2.0 / 3.0 * material.stiffness * (0.5 * radius).sqrt())).powf(2.0 / 3.0),
+        }
+    };
+    let part = materials.iter().map(overlap).fold(0.0, f64::max) / radius;
+    (part > PRESSED).then(|| {
+        let text = format!(
+            "bridges of liquid press grains into each other by {} of the radius of particle {grain}: they are too soft for such a surface tension",
+            digits(part)
+        );
+        let remark = Remark::warning("soft-for-bridges", text).with("overlap", part).with("particle", grain as f64);
+        remark.advice("make them stiffer, or lower `surface_tension`")
+    })
 }
 
 /// Fixed grains that impacts take for light ones.
@@ -157,6 +184,23 @@ mod tests {
         let (_, dt) = limit(&[("model", "hertz".into()), ("young_modulus", 1000.0.into())]);
         assert!((dt - 0.2 * 0.118_32).abs() < 1e-5, "{dt}");
         assert!(ids(&setup(0.0049, [1.0, 1.0], 2.1, &[])).is_empty());
+    }
+
+    /// Two spheres of radius 1 with γ = 4 pull with 8 π = 25.1, which a stiffness of 1000 holds at 0.0251, and one of 200 at 0.126. By Hertz 4/3 E* √(1/2)
+    /// δ^(3/2) holds it.
+    #[test]
+    fn bridges_that_press_grains_together_are_found() {
+        let of = |more: &[(&'static str, Value)]| {
+            let more = [&[("surface_tension", 4.0.into())], more].concat();
+            remarks(&setup(1e-4, [1.0, 1.0], 2.1, &more))
+        };
+        assert!(of(&[]).is_empty());
+        let soft = of(&[("stiffness", 200.0.into())]);
+        assert!(soft.len() == 1 && soft[0].id == "soft-for-bridges", "{soft:?}");
+        assert!((soft[0].number("overlap").expect("a part") - 8.0 * PI / 200.0).abs() < 1e-12, "{soft:?}");
+        let hertz = of(&[("model", "hertz".into()), ("young_modulus", 500.0.into()), ("poisson_ratio", 0.0.into())]);
+        let want = (8.0 * PI / (4.0 / 3.0 * 250.0 * 0.5_f64.sqrt())).powf(2.0 / 3.0);
+        assert!((hertz[0].number("overlap").expect("a part") - want).abs() < 1e-12, "{hertz:?} {want}");
     }
 
     #[test]

@@ -79,6 +79,24 @@ pub(crate) const TORSION: Key = Key::new(
     Value::Number(0.0),
     "the coefficient of torsional friction: the largest torque about the normal, relative to the normal force times the reduced radius",
 );
+pub(crate) const SURFACE_TENSION: Key = Key::new(
+    "surface_tension",
+    Kind::NotNegative,
+    Value::Number(0.0),
+    "the surface tension γ of liquid that bridges grains from where they touch until they are too far apart; 0: dry [mass / time²]",
+);
+pub(crate) const CONTACT_ANGLE: Key = Key::new(
+    "contact_angle",
+    Kind::NotNegative,
+    Value::Number(0.0),
+    "the angle θ at which liquid meets grains [radians]",
+);
+pub(crate) const BRIDGE_VOLUME: Key = Key::new(
+    "bridge_volume",
+    Kind::Positive,
+    Value::Number(0.01),
+    "the volume V of each bridge, relative to the cube of the smaller radius: a bridge breaks (1 + θ / 2) V^(1/3) apart",
+);
 pub(crate) const PAIRS: Key = Key::new(
     "pairs",
     Kind::Pairs(FACTORS),
@@ -95,6 +113,7 @@ const FACTORS: &[Key] = &[
     factor("friction", Kind::NotNegative),
     factor("rolling_friction", Kind::NotNegative),
     factor("torsional_friction", Kind::NotNegative),
+    factor("surface_tension", Kind::NotNegative),
 ];
 
 const fn factor(name: &'static str, kind: Kind) -> Key {
@@ -102,7 +121,7 @@ const fn factor(name: &'static str, kind: Kind) -> Key {
 }
 
 /// Values by pair of species, in the order of the factors of [`PAIRS`].
-pub(crate) const NAMES: [&str; 7] = [
+pub(crate) const NAMES: [&str; 8] = [
     "stiffness",
     "young_modulus",
     "poisson_ratio",
@@ -110,6 +129,7 @@ pub(crate) const NAMES: [&str; 7] = [
     "friction",
     "rolling_friction",
     "torsional_friction",
+    "surface_tension",
 ];
 
 /// The law of the normal force.
@@ -144,6 +164,12 @@ pub struct Material {
     pub elastic: bool,
     /// μₜ.
     pub torsion: f64,
+    /// 2 π γ cos θ: the pull of a bridge of liquid over R \[mass / time²\].
+    pub pull: f64,
+    /// √V over r^(3/2), with the smaller radius r.
+    pub spread: f64,
+    /// The distance at which a bridge breaks over r; 0 where there is none.
+    pub reach: f64,
 }
 
 /// The elastic constants (E, ν) of a body with which two like ones touch as these two do: 1 / E* = Σ (1 − ν²) / E and
@@ -182,6 +208,8 @@ impl Material {
                 (young / (1.0 - nu * nu), 2.0 * (5.0_f64 / 6.0).sqrt() * zeta, shear, drag * shear.sqrt())
             }
         };
+        let (angle, volume) = (settings.number("contact_angle"), settings.number("bridge_volume"));
+        let pull = 2.0 * PI * value("surface_tension") * angle.cos();
         Self {
             model,
             stiffness,
@@ -193,6 +221,9 @@ impl Material {
             rolling_damping: settings.number("rolling_damping"),
             elastic: settings.text("rolling_model") == "elastic_plastic",
             torsion: value("torsional_friction"),
+            pull,
+            spread: volume.sqrt(),
+            reach: if pull > 0.0 { (1.0 + 0.5 * angle) * volume.cbrt() } else { 0.0 },
         }
     }
     /// Of settings without pairs.
@@ -210,6 +241,9 @@ impl Material {
             ("rolling", self.rolling),
             ("rolling_damping", self.rolling_damping),
             ("torsion", self.torsion),
+            ("pull", self.pull),
+            ("spread", self.spread),
+            ("reach", self.reach),
         ];
         let flags = [("hertz", self.model == Model::Hertz), ("elastic", self.elastic)];
         let numbers = numbers.map(|(name, x)| (name.to_owned(), Scalar::Float(x)));
@@ -218,10 +252,11 @@ impl Material {
     /// The words of history that it needs of those of [`Wound`](super::Wound): its last ones may be left out.
     #[must_use]
     pub fn words(&self) -> u32 {
-        match (self.torsion > 0.0, self.rolling > 0.0 && self.elastic) {
-            (true, _) => 7,
-            (false, true) => 6,
-            (false, false) => 3,
+        match (self.pull > 0.0, self.torsion > 0.0, self.rolling > 0.0 && self.elastic) {
+            (true, ..) => 8,
+            (false, true, _) => 7,
+            (false, false, true) => 6,
+            (false, false, false) => 3,
         }
     }
 }
@@ -230,7 +265,8 @@ impl Material {
 ///
 /// # Errors
 /// [`Error::Setting`] with the key.
-pub(crate) fn check(values: &[f64]) -> Result<(), Error> {
+pub(crate) fn check(settings: &Settings, values: &[f64]) -> Result<(), Error> {
+    let angle = settings.number("contact_angle");
     let refuse = |key: &'static str, why: String| Err(Error::Setting { key, why });
     let (poisson, restitution) = (values[2], values[3]);
     if poisson > 0.5 {
@@ -238,6 +274,12 @@ pub(crate) fn check(values: &[f64]) -> Result<(), Error> {
     }
     if restitution > 1.0 {
         return refuse("restitution", format!("restitution is {restitution} for a pair: it is above 0, and 1 at most"));
+    }
+    if angle >= 0.5 * PI {
+        return refuse(
+            "contact_angle",
+            format!("contact_angle is {angle}: liquid pulls where it is below π / 2, in radians"),
+        );
     }
     Ok(())
 }

@@ -12,19 +12,25 @@
 //!   within a sixteenth of the reduced radius of each other: what parts by more in a step keeps this out of the sum of energies.
 
 mod ball;
+mod bridge;
+mod force;
 mod material;
+mod meeting;
 mod pairs;
 mod touch;
 mod wall;
 
 pub use ball::{inside, volume};
+pub use bridge::Bridge;
+pub use force::{Balls, ContactForce, between};
 pub(crate) use material::{
-    FRICTION, MODEL, NAMES, PAIRS, POISSON, RESTITUTION, ROLLING, ROLLING_DAMPING, ROLLING_MODEL, STIFFNESS,
-    TANGENTIAL_DAMPING, TANGENTIAL_STIFFNESS, TORSION, YOUNG, check, mixed,
+    BRIDGE_VOLUME, CONTACT_ANGLE, FRICTION, MODEL, NAMES, PAIRS, POISSON, RESTITUTION, ROLLING, ROLLING_DAMPING,
+    ROLLING_MODEL, STIFFNESS, SURFACE_TENSION, TANGENTIAL_DAMPING, TANGENTIAL_STIFFNESS, TORSION, YOUNG, check, mixed,
 };
 pub use material::{Material, Model};
-pub use pairs::{Pair, touching};
-pub use touch::{MARGIN, Meeting, Touch, WORDS, Wound, may_touch, moment, reduced};
+pub use meeting::{Ball, Meeting};
+pub use pairs::{Pair, near, touching};
+pub use touch::{MARGIN, Touch, WORDS, Wound, may_touch, moment, reduced};
 pub use wall::{Surface, own};
 
 use crate::kernel::{Column, Kind};

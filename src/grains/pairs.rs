@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use glam::{DVec3, IVec3};
+use glam::{DVec3, I64Vec3};
 
 use crate::kernel::Bounds;
 
@@ -19,22 +19,36 @@ pub struct Pair {
 /// are smaller than a quarter of it.
 #[must_use]
 pub fn touching(places: &[DVec3], radii: &[f64], bounds: &Bounds, is_there: impl Fn(usize) -> bool) -> Vec<Pair> {
+    near(places, radii, 0.0, bounds, is_there)
+}
+
+/// The same with pairs that are as far apart as `reach`, relative to the smaller radius: their overlaps are below 0.
+#[must_use]
+pub fn near(
+    places: &[DVec3],
+    radii: &[f64],
+    reach: f64,
+    bounds: &Bounds,
+    is_there: impl Fn(usize) -> bool,
+) -> Vec<Pair> {
     let largest = radii.iter().copied().fold(0.0, f64::max);
     let count = places.len().min(radii.len());
     if !(largest > 0.0 && largest.is_finite()) {
         return Vec::new();
     }
-    let cell = |x: DVec3| (x / (2.0 * largest)).floor().as_ivec3();
-    let mut cells: HashMap<IVec3, Vec<usize>> = HashMap::new();
+    // Cells beyond all numbers are one.
+    let far = DVec3::splat(1e18);
+    let cell = |x: DVec3| (x / ((2.0 + reach) * largest)).floor().clamp(-far, far).as_i64vec3();
+    let mut cells: HashMap<I64Vec3, Vec<usize>> = HashMap::new();
     let there: Vec<usize> = (0..count).filter(|i| is_there(*i) && places[*i].is_finite()).collect();
     there.iter().for_each(|i| cells.entry(cell(places[*i])).or_default().push(*i));
     let mut pairs = Vec::new();
     for i in there {
         for image in images(places[i], bounds.period()) {
-            let near = (0..27).map(|n| cell(image) + IVec3::new(n % 3 - 1, n / 3 % 3 - 1, n / 9 - 1));
+            let near = (0..27).map(|n| cell(image) + I64Vec3::new(n % 3 - 1, n / 3 % 3 - 1, n / 9 - 1));
             for j in near.filter_map(|at| cells.get(&at)).flatten().copied().filter(|j| *j > i) {
                 let overlap = radii[i] + radii[j] - (places[j] - image).length();
-                if overlap > 0.0 {
+                if overlap > -reach * radii[i].min(radii[j]) {
                     pairs.push(Pair { grains: [i, j], overlap });
                 }
             }

@@ -2,29 +2,10 @@
 
 use glam::DVec3;
 
-use super::{Material, Model};
+use super::{Material, Meeting, Model};
 
 /// The words of [`Wound`].
-pub const WORDS: usize = 7;
-
-/// How two spheres, or a sphere and a wall, meet.
-#[derive(Debug, Clone, Copy)]
-pub struct Meeting {
-    /// The unit vector out of the sphere.
-    pub n: DVec3,
-    /// δ \[length\].
-    pub overlap: f64,
-    /// The velocity at the contact, relative to the other \[length / time\].
-    pub v: DVec3,
-    /// The reduced radius \[length\].
-    pub radius: f64,
-    /// The angular velocity, relative to the other \[1 / time\].
-    pub spin: DVec3,
-    /// The reduced mass \[mass\].
-    pub mass: f64,
-    /// The reduced moment about the contact \[mass length²\].
-    pub rest: f64,
-}
+pub const WORDS: usize = 8;
 
 /// What a contact keeps from step to step.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
@@ -35,6 +16,8 @@ pub struct Wound {
     pub roll: DVec3,
     /// The angle of the torsional spring.
     pub twist: f64,
+    /// Whether liquid bridges it.
+    pub is_wet: bool,
 }
 
 /// The force and the torque of a contact.
@@ -57,13 +40,13 @@ impl Wound {
     #[must_use]
     pub fn of(word: impl Fn(usize) -> f64) -> Self {
         let vector = |first: usize| DVec3::new(word(first), word(first + 1), word(first + 2));
-        Self { slide: vector(0), roll: vector(3), twist: word(6) }
+        Self { slide: vector(0), roll: vector(3), twist: word(6), is_wet: word(7) > 0.0 }
     }
     /// Its words.
     #[must_use]
     pub fn words(&self) -> [f64; WORDS] {
         let ([a, b, c], [d, e, f]) = (self.slide.to_array(), self.roll.to_array());
-        [a, b, c, d, e, f, self.twist]
+        [a, b, c, d, e, f, self.twist, f64::from(u8::from(self.is_wet))]
     }
 }
 
@@ -164,7 +147,13 @@ impl Material {
             energy += 0.5 * back * last.twist.powi(2);
             heat -= torsion * about + gain(back, last.twist.powi(2), twist.powi(2));
         }
-        Touch { push: tangential - normal * n, turn, wound: Wound { slide, roll, twist }, energy, heat }
+        Touch {
+            push: tangential - normal * n,
+            turn,
+            wound: Wound { slide, roll, twist, is_wet: last.is_wet },
+            energy,
+            heat,
+        }
     }
     /// The power of what springs still held a step before where spheres do not touch any more; 0 where they did not then.
     #[must_use]
@@ -221,7 +210,7 @@ mod tests {
     /// Of a sphere that another, or a wall, meets head-on.
     fn head_on(overlap: f64, speed: f64, mass: f64) -> Meeting {
         let (n, zero) = (DVec3::Z, DVec3::ZERO);
-        Meeting { n, overlap, v: speed * n, radius: 0.0025, spin: zero, mass, rest: 0.0 }
+        Meeting { n, overlap, arm: 0.0, v: speed * n, radius: 0.0025, smaller: 0.005, spin: zero, mass, rest: 0.0 }
     }
 
     /// Two spheres of radius 5 mm, E = 50 MPa and ν = 0.25 that overlap by a hundredth of it: F = 0.62854 N, Sₙ = 18 856 N/m and

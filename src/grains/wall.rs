@@ -4,11 +4,13 @@ use std::sync::Arc;
 
 use glam::{DQuat, DVec3, DVec4, Vec4};
 
-use super::{Material, Meeting, WORDS, Wound, may_touch, moment};
+use super::force::force;
+use super::{Ball, Balls, ContactForce, Material, Meeting, WORDS, Wound, moment};
 use crate::error::Error;
-use crate::kernel::{ACCELERATION, Host, Kernel, Pass, Problem, Scalar, Shader, Source, World, time};
+use crate::kernel::{ACCELERATION, Bounds, Host, Kernel, Pass, Problem, Scalar, Shader, Source, time};
 use crate::motion::Motion;
 use crate::solids::Solid;
+use crate::state::State;
 
 /// A wall in a problem.
 #[derive(Clone)]
@@ -47,6 +49,12 @@ struct Frame {
     turn: DQuat,
     velocity: DVec3,
     spin: DVec3,
+}
+
+impl Frame {
+    fn still(centre: DVec3) -> Self {
+        Self { centre, pivot: centre, turn: DQuat::IDENTITY, velocity: DVec3::ZERO, spin: DVec3::ZERO }
+    }
 }
 
 /// The kernel that finds the pose of a moving wall, for all particles.
@@ -119,6 +127,7 @@ impl Surface {
             crate::shader!("motion/turned.wgsl"),
             crate::shader!("solids/distance.wgsl"),
             crate::shader!("grains/touch.wgsl"),
+            crate::shader!("grains/bridge.wgsl"),
             frame,
             wgsl,
         ])?;
@@ -166,37 +175,28 @@ impl Surface {
         let frame = self.pose(host, pose)?;
         let (words, half) = (self.material.words() as usize, (world.step & 1) as usize);
         for me in &bodies {
-            let mine = me.vector("angular_velocity").unwrap_or_default();
-            // A particle without mass is moved by nothing.
-            let meets = me.mass > 0.0 && mine.w > 0.0 && self.species.is_none_or(|own| own == me.species());
-            let way = me.position - frame.centre;
-            // Planes have no end; all others have images in a periodic box.
-            let r = if matches!(self.shape, Solid::Plane(_)) { way } else { world.bounds.shortest(way) };
+            let turning = me.vector("angular_velocity").unwrap_or_default();
+            let ball = Ball { velocity: me.velocity, spin: turning.truncate(), radius: turning.w, mass: me.mass };
+            let meets = self.is_met_by(&ball, me.species());
             for contact in 0..self.contacts as usize {
-                let place = |half: usize| ((2 * me.index + half) * self.contacts as usize + contact) * words;
-                let (out, distance) = self.face(contact, r, &frame, &world);
-                let overlap = mine.w - distance;
+                let place = |half: usize| self.place(me.index, half, contact);
+                let at = self.meeting(&ball, me.position, contact, &frame, &world.bounds);
                 let mut kept = Wound::default();
-                let (n, arm) = (-out, mine.w - 0.5 * overlap);
-                let moving = frame.velocity + frame.spin.cross(frame.centre + r + arm * n - frame.pivot);
-                let at = Meeting {
-                    n,
-                    overlap,
-                    v: me.velocity + arm * mine.truncate().cross(n) - moving,
-                    radius: mine.w,
-                    spin: mine.truncate() - frame.spin,
-                    mass: me.mass,
-                    rest: moment(me.mass, mine.w),
-                };
                 let word = |word: usize| if word < words { history[place(half) + word] } else { 0.0 };
                 let last = Wound::of(word);
-                if meets && overlap > 0.0 {
+                let bridge = self.material.bridge(&at, last.is_wet, world.dt);
+                if meets && at.overlap > 0.0 {
                     let touch = self.material.touch(&at, &last, world.dt);
                     acceleration[me.index] += touch.push.extend(touch.energy) / me.mass;
-                    torque[me.index] += (arm * n.cross(touch.push) + touch.turn).extend(touch.heat);
+                    torque[me.index] += (at.arm * at.n.cross(touch.push) + touch.turn).extend(touch.heat);
                     kept = touch.wound;
-                } else if meets && may_touch(overlap, mine.w) {
+                } else if meets && self.material.is_near(&at) {
                     torque[me.index].w += self.material.left(&at, &last, world.dt);
+                }
+                if meets {
+                    acceleration[me.index] += (bridge.pull * at.n).extend(bridge.energy) / me.mass;
+                    torque[me.index].w += bridge.heat;
+                    kept.is_wet = bridge.is_there;
                 }
                 let next = place(1 - half);
                 history[next..next + words].copy_from_slice(&kept.words()[..words.min(WORDS)]);
@@ -204,10 +204,69 @@ impl Surface {
         }
         Ok(())
     }
+    /// A particle without mass is moved by nothing.
+    fn is_met_by(&self, ball: &Ball, species: u32) -> bool {
+        ball.mass > 0.0 && ball.radius > 0.0 && self.species.is_none_or(|own| own == species)
+    }
+    /// The index of the first word of history of a particle's contact.
+    fn place(&self, row: usize, half: usize, contact: usize) -> usize {
+        ((2 * row + half) * self.contacts as usize + contact) * self.material.words() as usize
+    }
+    /// How a grain meets the face that it may touch at one of its contacts.
+    fn meeting(&self, ball: &Ball, position: DVec3, contact: usize, frame: &Frame, bounds: &Bounds) -> Meeting {
+        let way = position - frame.centre;
+        // Planes have no end; all others have images in a periodic box.
+        let r = if matches!(self.shape, Solid::Plane(_)) { way } else { bounds.shortest(way) };
+        let (out, distance) = self.face(contact, r, frame, bounds);
+        let overlap = ball.radius - distance;
+        let (n, arm) = (-out, ball.radius - 0.5 * overlap);
+        let moving = frame.velocity + frame.spin.cross(frame.centre + r + arm * n - frame.pivot);
+        Meeting {
+            n,
+            overlap,
+            arm,
+            v: ball.velocity + arm * ball.spin.cross(n) - moving,
+            radius: ball.radius,
+            smaller: ball.radius,
+            spin: ball.spin - frame.spin,
+            mass: ball.mass,
+            rest: moment(ball.mass, ball.radius),
+        }
+    }
+    /// The forces on the grains of a state, with `earlier` walls before this one.
+    #[must_use]
+    pub fn pushes(&self, state: &State, bounds: &Bounds, earlier: usize) -> Vec<ContactForce> {
+        let (balls, frame) = (Balls::of(state), self.posed(state.time));
+        let history = state.scalar(&own("history", earlier)).unwrap_or_default();
+        let half = usize::from(state.step % 2 == 1);
+        let words = self.material.words() as usize;
+        let contact = |grain: usize, contact: usize| {
+            let ball = balls.ball(grain).filter(|ball| self.is_met_by(ball, state.species()[grain]))?;
+            let at = self.meeting(&ball, state.position()[grain], contact, &frame, bounds);
+            let first = self.place(grain, half, contact);
+            let word = |word: usize| if word < words { history.get(first + word).copied().unwrap_or(0.0) } else { 0.0 };
+            let arm = at.arm * at.n;
+            let force = force(&self.material, &at, &Wound::of(word))?;
+            Some(ContactForce { grain, other: None, way: arm, arm, force })
+        };
+        (0..state.len()).flat_map(|grain| (0..self.contacts as usize).filter_map(move |k| contact(grain, k))).collect()
+    }
+    /// Its pose at a time.
+    fn posed(&self, time: f64) -> Frame {
+        let position = self.position;
+        let Some((_, motion)) = &self.motion else { return Frame::still(position) };
+        let pose = motion.pose(time);
+        Frame {
+            centre: motion.place(position, time),
+            pivot: motion.about + pose.shift,
+            turn: pose.turn,
+            velocity: pose.velocity,
+            spin: pose.spin,
+        }
+    }
     fn pose(&self, host: &Host, field: &str) -> Result<Frame, Error> {
-        let (centre, pivot, zero) = (self.position, self.position, DVec3::ZERO);
         if self.motion.is_none() {
-            return Ok(Frame { centre, pivot, turn: DQuat::IDENTITY, velocity: zero, spin: zero });
+            return Ok(Frame::still(self.position));
         }
         let rows = host.reading::<Vec4>(field)?;
         let row = |n: usize| rows.get(n).copied().unwrap_or(DVec4::ZERO);
@@ -215,7 +274,7 @@ impl Surface {
         Ok(Frame { centre, pivot, turn: DQuat::from_vec4(row(2)), velocity, spin })
     }
     /// ∇φ and φ of a face that a grain may touch.
-    fn face(&self, contact: usize, r: DVec3, frame: &Frame, world: &World) -> (DVec3, f64) {
+    fn face(&self, contact: usize, r: DVec3, frame: &Frame, bounds: &Bounds) -> (DVec3, f64) {
         let own = frame.turn.inverse() * r;
         let (out, distance) = match self.shape {
             Solid::Box(size) if self.contacts > 1 => {
@@ -223,7 +282,7 @@ impl Surface {
                 (DVec3::AXES[contact] * out, 0.5 * size[contact] + out * own[contact])
             }
             shape => {
-                let (out, distance) = shape.distance(own, world.bounds.dimensions);
+                let (out, distance) = shape.distance(own, bounds.dimensions);
                 (self.side * out, self.side * distance)
             }
         };

@@ -8,9 +8,10 @@ use super::pair_potential::rows;
 use super::{Component, Law, Properties};
 use crate::component::Largest;
 use crate::error::Error;
-use crate::grains::{self, MARGIN, Material, Meeting, Wound, may_touch, moment, reduced};
+use crate::grains::{self, Ball, ContactForce, MARGIN, Material, Meeting, Wound};
 use crate::kernel::{Bounds, Column, World};
 use crate::settings::{Key, Kind, Settings, Value};
+use crate::state::State;
 use crate::visit::{Memory, Outcome, PairRow, PairTable, Particle};
 
 /// The keys in a scene.
@@ -28,6 +29,9 @@ pub const KEYS: &[Key] = &[
     grains::ROLLING_MODEL,
     grains::ROLLING_DAMPING,
     grains::TORSION,
+    grains::SURFACE_TENSION,
+    grains::CONTACT_ANGLE,
+    grains::BRIDGE_VOLUME,
     grains::PAIRS,
     Key::new("skin", Kind::NotNegative, Value::Number(0.0), "the skin of the neighbour list beyond the range; 0: a fifth of the range [length]"),
 ];
@@ -35,6 +39,7 @@ pub const KEYS: &[Key] = &[
 /// `contact`: a spring and dashpot along the line between two spheres that overlap, linear or by Hertz, and across it a spring that
 /// sliding winds up, bounded by Coulomb's friction (Cundall & Strack, Géotechnique 29, 47, 1979; Mindlin, J. Appl. Mech. 16, 259, 1949;
 /// Luding, Granular Matter 10, 235, 2008), resistance to rolling (Ai et al., Powder Technol. 206, 269, 2011) and to torsion.
+/// Between wet grains bridges of liquid pull (Willett et al., Langmuir 16, 9396, 2000) from where they touch until they break.
 /// Spheres have their `radius`, and turn by the torques, with their `inertia`. The dashpot is that which makes the
 /// coefficient of restitution what is asked for, whatever the masses and the speed (Tsuji et al., Powder Technol. 71, 239, 1992). The
 /// energy of its springs is part of the potential, and what it dissipates is summed up in `dissipated`.
@@ -56,6 +61,16 @@ struct Row {
     material: Material,
 }
 
+/// The row of two species, in any order.
+fn find(rows: &[Row], [a, b]: [u32; 2]) -> Option<&Row> {
+    rows.iter().find(|row| row.species == [a, b] || row.species == [b, a])
+}
+
+/// The farthest that any bridge of liquid reaches, relative to the smaller radius.
+fn reach(rows: &[Row]) -> f64 {
+    rows.iter().map(|row| row.material.reach).fold(0.0, f64::max)
+}
+
 impl Contact {
     /// From checked settings.
     #[must_use]
@@ -74,7 +89,7 @@ impl Component for Contact {
         grains::columns()
     }
     fn check(&self, _: &Bounds) -> Result<(), Error> {
-        rows(&self.0, &grains::NAMES, Some(grains::mixed)).iter().try_for_each(|row| grains::check(&row.values))
+        rows(&self.0, &grains::NAMES, Some(grains::mixed)).iter().try_for_each(|row| grains::check(&self.0, &row.values))
     }
     fn properties(&self) -> Properties {
         Properties {
@@ -86,15 +101,19 @@ impl Component for Contact {
             ..Properties::default()
         }
     }
+    fn contacts(&self, state: &State, bounds: &Bounds, _: usize) -> Result<Vec<ContactForce>, Error> {
+        let rows = self.rows();
+        Ok(grains::between(state, bounds, reach(&rows), |pair| find(&rows, pair).map(|row| row.material)))
+    }
     fn laws(&self) -> Vec<Law> {
         let rows = self.rows();
         let slots = rows.iter().map(|row| row.material.words()).max().unwrap_or(0);
         let table = rows.iter().map(|row| PairRow { species: row.species, values: row.material.members() }).collect();
+        // The largest reduced radius is a quarter of the largest sum of two, and the largest smaller one a half.
+        let range = self.0.number("range") * (1.0 + (0.25 * MARGIN).max(0.5 * reach(&rows)));
         let rows: Arc<[Row]> = rows.into();
         let gather = move |me: &Particle, you: &Particle, r: DVec3, world: &World, memory: &mut Memory<'_>, sum: &mut Sum| {
-            let pair = [me.species(), you.species()];
-            let known = rows.iter().find(|row| row.species == pair || row.species == [pair[1], pair[0]]);
-            if let Some(row) = known {
+            if let Some(row) = find(&rows, [me.species(), you.species()]) {
                 touch(&row.material, (me, you), r, world, memory, sum);
             }
         };
@@ -105,47 +124,43 @@ impl Component for Contact {
             outcome.add("torque", sum.torque.extend(sum.heat));
         };
         let skin = Some(self.0.number("skin")).filter(|skin| *skin > 0.0);
-        // The largest reduced radius is a quarter of the largest sum of two.
-        let range = self.0.number("range") * (1.0 + 0.25 * MARGIN);
         let (over, wgsl) = ((range, skin, slots), crate::shader!("interactions/contact.wgsl"));
         let law = Law::remembering("contact", over, wgsl, Vec::new(), &["acceleration", "torque"], gather, finish);
         vec![Law { reciprocal: true, pairs: Some(PairTable { rows: table }), ..law }]
     }
 }
 
+/// A sphere, as a contact reads it.
+fn ball(particle: &Particle) -> Ball {
+    let spin = particle.vector("angular_velocity").unwrap_or_default();
+    Ball { velocity: particle.velocity, spin: spin.truncate(), radius: spin.w, mass: particle.mass }
+}
+
 fn touch(material: &Material, (me, you): (&Particle, &Particle), r: DVec3, world: &World, memory: &mut Memory<'_>, sum: &mut Sum) {
-    let [mine, yours] = [me, you].map(|particle| particle.vector("angular_velocity").unwrap_or_default());
-    let distance = r.length();
-    let overlap = mine.w + yours.w - distance;
-    // Two particles at the same position have no direction between them.
-    let radius = reduced(mine.w, yours.w);
-    if distance <= 0.0 || mine.w <= 0.0 || yours.w <= 0.0 || !may_touch(overlap, radius) {
+    let Some(at) = Meeting::between(&ball(me), &ball(you), r)else { return };
+    if !material.is_near(&at) {
         return;
     }
-    let n = r / distance;
-    // From the centres to the middle of the overlap.
-    let [arm, other] = [mine.w - 0.5 * overlap, yours.w - 0.5 * overlap];
-    let [spin, yours_spin] = [mine, yours].map(glam::DVec4::truncate);
-    let at = Meeting {
-        n,
-        overlap,
-        v: me.velocity - you.velocity + (arm * spin + other * yours_spin).cross(n),
-        radius,
-        spin: spin - yours_spin,
-        mass: reduced(me.mass, you.mass),
-        rest: reduced(moment(me.mass, mine.w), moment(you.mass, yours.w)),
-    };
     // Each has half of what a pair has, and all of it where the other has no mass. The visit halves energies.
     let share = if me.mass <= 0.0 { 0.0 } else if you.mass > 0.0 { 0.5 } else { 1.0 };
     let last = Wound::of(|word| memory.recall(word));
-    if overlap <= 0.0 {
+    let bridge = material.bridge(&at, last.is_wet, world.dt);
+    sum.force += bridge.pull * at.n;
+    sum.energy += 2.0 * share * bridge.energy;
+    sum.heat += share * bridge.heat;
+    let mut keep = |wound: Wound| {
+        let kept = Wound { is_wet: bridge.is_there, ..wound };
+        kept.words().into_iter().enumerate().for_each(|(word, value)| memory.remember(word, value));
+    };
+    if at.overlap <= 0.0 {
         sum.heat += share * material.left(&at, &last, world.dt);
+        keep(Wound::default());
         return;
     }
     let touch = material.touch(&at, &last, world.dt);
-    touch.wound.words().into_iter().enumerate().for_each(|(word, value)| memory.remember(word, value));
+    keep(touch.wound);
     sum.force += touch.push;
-    sum.torque += arm * n.cross(touch.push) + touch.turn;
+    sum.torque += at.arm * at.n.cross(touch.push) + touch.turn;
     sum.energy += 2.0 * share * touch.energy;
     sum.heat += share * touch.heat;
 }

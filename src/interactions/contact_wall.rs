@@ -6,10 +6,12 @@ use glam::DVec3;
 
 use super::{Component, EACH, Properties, SPECIES, Stage, numbered};
 use crate::error::Error;
-use crate::grains::{self, Material, Surface, own};
+use crate::grains::{self, ContactForce, Material, Surface, own};
 use crate::kernel::{Bounds, Column, Kind as Element, Plan, Problem, Shape as Slots};
+use crate::motion::Motion;
 use crate::settings::{Key, Kind, Settings, Value};
 use crate::solids::{Solid, Standing};
+use crate::state::State;
 
 /// The keys in a scene.
 pub const KEYS: &[Key] = &[
@@ -34,6 +36,9 @@ pub const KEYS: &[Key] = &[
     grains::ROLLING_MODEL,
     grains::ROLLING_DAMPING,
     grains::TORSION,
+    grains::SURFACE_TENSION,
+    grains::CONTACT_ANGLE,
+    grains::BRIDGE_VOLUME,
     SPECIES,
     EACH,
 ];
@@ -74,9 +79,9 @@ impl ContactWall {
     fn words(&self) -> u32 {
         2 * self.contacts() * Material::of(&self.0).words()
     }
-    fn surface(&self, problem: &Problem) -> Result<Surface, Error> {
+    fn surface(&self, motions: &[Motion], dimensions: u32) -> Result<Surface, Error> {
         let name = self.0.text("motion");
-        let known = problem.motions.iter().zip(0..).find(|(motion, _)| motion.name == name);
+        let known = motions.iter().zip(0..).find(|(motion, _)| motion.name == name);
         if known.is_none() && !name.is_empty() {
             let why = format!("a wall has the motion \"{name}\", and there is no motion of this name");
             return Err(Error::Setting { key: "motion", why });
@@ -85,7 +90,7 @@ impl ContactWall {
             shape: self.shape(),
             side: if self.holds() { -1.0 } else { 1.0 },
             // In the plane a box has no faces above and below.
-            contacts: self.contacts().min(problem.bounds.dimensions),
+            contacts: self.contacts().min(dimensions),
             words: self.words(),
             position: self.0.vector("position"),
             species: self.0.species("species"),
@@ -105,7 +110,7 @@ impl Component for ContactWall {
     }
     fn check(&self, bounds: &Bounds) -> Result<(), Error> {
         let values = grains::NAMES.map(|name| self.0.number(name));
-        grains::check(&values)?;
+        grains::check(&self.0, &values)?;
         let (shape, axis) = (self.shape(), self.0.vector("axis"));
         let wrong = |key: &'static str, why: &str| Err(Error::Setting { key, why: why.to_owned() });
         match shape {
@@ -123,6 +128,9 @@ impl Component for ContactWall {
         }
         Ok(())
     }
+    fn contacts(&self, state: &State, bounds: &Bounds, earlier: usize) -> Result<Vec<ContactForce>, Error> {
+        Ok(self.surface(&state.motions, bounds.dimensions)?.pushes(state, bounds, earlier))
+    }
     fn properties(&self) -> Properties {
         let (position, motion) = (self.0.vector("position"), self.0.text("motion").to_owned());
         let inside = self.holds() || matches!(self.shape(), Solid::Cone { .. });
@@ -139,7 +147,7 @@ impl Component for ContactWall {
     }
     fn stage(&self, stage: Stage, plan: &mut Plan, problem: &Problem) -> Result<(), Error> {
         let Stage::Evaluate { earlier } = stage else { return Ok(()) };
-        let wall = self.surface(problem)?;
+        let wall = self.surface(&problem.motions, problem.bounds.dimensions)?;
         if let Some(frame) = wall.frame(earlier, problem)? {
             plan.add(frame);
         }

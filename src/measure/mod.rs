@@ -87,6 +87,7 @@ register! {
     flock
     granular
     packing
+    stress
     fluid
     population
     thermo

@@ -1,5 +1,7 @@
 //! Where grains are measured: the box or a part of it, whole or in slabs.
 
+mod path;
+
 use std::borrow::Cow;
 use std::collections::BTreeSet;
 
@@ -180,6 +182,21 @@ impl Slabs {
     pub fn count(&self) -> usize {
         self.bins
     }
+    /// The axis along which they are.
+    #[must_use]
+    pub fn axis(&self) -> Option<usize> {
+        self.axis
+    }
+    /// The box.
+    #[must_use]
+    pub fn bounds(&self) -> &Bounds {
+        &self.bounds
+    }
+    /// The coordinate along the axis; 0 without one.
+    #[must_use]
+    pub fn along(&self, x: DVec3) -> f64 {
+        self.axis.map_or(0.0, |axis| self.place(x)[axis])
+    }
     /// The volume of each \[length³, or length² in two dimensions\].
     #[must_use]
     pub fn volume(&self) -> f64 {
@@ -212,14 +229,18 @@ impl Slabs {
             return None;
         }
         let Some(axis) = self.axis else { return Some(0) };
-        let part = (x - self.low)[axis] / (self.high - self.low)[axis];
+        Some(self.number(axis, x[axis]))
+    }
+    /// The slab of a coordinate; of one outside the nearest.
+    fn number(&self, axis: usize, x: f64) -> usize {
+        let part = (x - self.low[axis]) / (self.high - self.low)[axis] * self.bins as f64;
         #[expect(
             clippy::cast_possible_truncation,
             clippy::cast_sign_loss,
             reason = "between 0 and the number of slabs"
         )]
-        let slab = (part * self.bins as f64) as usize;
-        Some(slab.min(self.bins - 1))
+        let slab = part.max(0.0) as usize;
+        slab.min(self.bins - 1)
     }
     /// Calls `add` with each slab that a sphere reaches, at any of its images, and the volume of it there.
     pub fn share(&self, x: DVec3, radius: f64, mut add: impl FnMut(usize, f64)) {
@@ -235,14 +256,7 @@ impl Slabs {
                 add(0, if whole { volume(radius, dimensions) } else { inside(radius, low, high, dimensions) });
                 continue;
             };
-            let part = |x: f64| (x - self.low[axis]) / (self.high - self.low)[axis] * self.bins as f64;
-            #[expect(
-                clippy::cast_possible_truncation,
-                clippy::cast_sign_loss,
-                reason = "between 0 and the number of slabs"
-            )]
-            let place = |x: f64| (part(x).max(0.0) as usize).min(self.bins - 1);
-            for slab in place(image[axis] - radius)..=place(image[axis] + radius) {
+            for slab in self.number(axis, image[axis] - radius)..=self.number(axis, image[axis] + radius) {
                 let (mut low, mut high) = (low, high);
                 (low[axis], high[axis]) = (self.end(axis, slab) - image[axis], self.end(axis, slab + 1) - image[axis]);
                 add(slab, inside(radius, low, high, dimensions));

@@ -146,6 +146,14 @@ impl State {
         self.kept.put(EXTENT, low.to_array().into_iter().chain(high.to_array()).collect());
         self.kept.put(HOME, homes);
     }
+    /// The history of pairs, by the rows of both: the words of each. None where no law keeps any, and before the first step.
+    pub fn pair_history(&self) -> impl Iterator<Item = ([usize; 2], &[f64])> {
+        let width = self.kept.get(PAIR_WORDS).and_then(|list| list.first()).copied().unwrap_or(0.0);
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "saturates")]
+        let whole = |x: f64| x as usize;
+        let groups = self.kept.get(PAIRS).unwrap_or_default().chunks_exact(whole(width).saturating_add(2));
+        groups.map(move |group| ([whole(group[0]), whole(group[1])], &group[2..]))
+    }
     /// The springs that have broken, without stiffness and damping.
     fn broken(&self) -> Vec<Link> {
         let ids = 0.0..self.len() as f64;

@@ -369,6 +369,12 @@ typed! {
         rolling_damping: f64,
         /// The coefficient of torsional friction: the largest torque about the normal, relative to the normal force times the reduced radius.
         torsional_friction: f64,
+        /// The surface tension γ of liquid that bridges grains from where they touch until they are too far apart; 0: dry \[mass / time²\].
+        surface_tension: f64,
+        /// The angle θ at which liquid meets grains \[radians\].
+        contact_angle: f64,
+        /// The volume V of each bridge, relative to the cube of the smaller radius: a bridge breaks (1 + θ / 2) V^(1/3) apart.
+        bridge_volume: f64,
         /// Factors for pairs of species, as in \[{ species = \[0, 1\], friction = 0.5 }\], by which the values above are multiplied; of two species with values of their own, the pair has both as springs in series, and geometric means of all coefficients; none: all species are alike.
         pairs: Vec<Pair>,
         /// The skin of the neighbour list beyond the range; 0: a fifth of the range \[length\].
@@ -418,6 +424,12 @@ typed! {
         rolling_damping: f64,
         /// The coefficient of torsional friction: the largest torque about the normal, relative to the normal force times the reduced radius.
         torsional_friction: f64,
+        /// The surface tension γ of liquid that bridges grains from where they touch until they are too far apart; 0: dry \[mass / time²\].
+        surface_tension: f64,
+        /// The angle θ at which liquid meets grains \[radians\].
+        contact_angle: f64,
+        /// The volume V of each bridge, relative to the cube of the smaller radius: a bridge breaks (1 + θ / 2) V^(1/3) apart.
+        bridge_volume: f64,
         /// The species that it acts on, or "all".
         species: Option<u32>,
         /// What is evaluated: single particles.

@@ -5,7 +5,7 @@ use crate::error::Error;
 use crate::kernel::{Problem, Source};
 
 /// Files that are joined with a law that calls a function of theirs and does not define it.
-const ON_CALL: [(&str, Source); 10] = [
+const ON_CALL: [(&str, Source); 11] = [
     ("is_of", crate::shader!("law/species.wgsl")),
     ("unit", crate::shader!("law/steering.wgsl")),
     ("truncated", crate::shader!("law/steering.wgsl")),
@@ -16,6 +16,7 @@ const ON_CALL: [(&str, Source); 10] = [
     ("pair_index", crate::shader!("law/pair_index.wgsl")),
     ("ended", crate::shader!("law/truncation.wgsl")),
     ("touch", crate::shader!("grains/touch.wgsl")),
+    ("bridged", crate::shader!("grains/bridge.wgsl")),
 ];
 
 /// The function that adds two sums of a law.

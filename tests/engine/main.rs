@@ -19,4 +19,5 @@ mod primitives;
 mod references;
 mod repeat;
 mod state;
+mod stress;
 mod tree;

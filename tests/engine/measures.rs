@@ -42,6 +42,10 @@ pub fn rows(name: &str, state: &State, bounds: Bounds, sets: &[(&'static str, Va
     if name == "tail" {
         setup.forces.push(force("lennard_jones", &[("range", Value::Number(1.0)), ("truncation", word("cut"))]));
     }
+    // Stresses are those of contacts.
+    if name == "stress" {
+        setup.forces.push(force("contact", &[("range", Value::Number(1.0))]));
+    }
     let mut series = (measure.begin)(&setup, &settings)?;
     let moment = Moment { state: &Arc::new(state), density: &[], clock: None, links: None, virial: Some(VIRIAL) };
     series.take(&moment)

@@ -16,6 +16,7 @@ mod equivalent_primitives;
 mod equivalents;
 mod ewald;
 mod fluids;
+mod grains;
 mod held;
 mod implicit;
 mod joint;
@@ -190,6 +191,7 @@ fn every_mutant_is_noticed() {
         pairs::EQUIVALENT,
         repeat::EQUIVALENT,
         columns::EQUIVALENT,
+        grains::EQUIVALENT,
         matter::EQUIVALENT,
         barostats::EQUIVALENT,
         crowds::EQUIVALENT,

@@ -313,6 +313,7 @@ fn unlike_grains_touch_by_both_materials() {
             "friction",
             "rolling_friction",
             "torsional_friction",
+            "surface_tension",
         ];
         let value = |name: &str| match name {
             "friction" => friction,

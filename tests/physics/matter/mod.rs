@@ -6,11 +6,13 @@
 )]
 #![allow(clippy::float_cmp, reason = "what does nothing is 0 to the bit")]
 
+mod bridges;
 mod collapse;
 mod energy;
 mod flows;
 mod grains;
 mod ions;
+mod stress;
 mod thermostat;
 mod walls;
 
