@@ -22,7 +22,7 @@ fn bridged(pair: Pair, at: Meeting, wet: f32) -> Bridge {
     let reach = pair.reach * at.smaller;
     let s = max(-at.overlap, 0.0);
     let touches = at.overlap > 0.0;
-    let holds = touches || wet > 0.0 && s < reach;
+    let holds = touches || (wet > 0.0 && s < reach);
     if pair.pull > 0.0 && holds {
         let radius = 2.0 * at.radius;
         let length = pair.spread * at.smaller * sqrt(at.smaller / radius); // √(V / R)

@@ -5,7 +5,7 @@ const WORKGROUP: u32 = 32u;
 // The stack is in the order of levels, the lowest on top, and so it stays: children are put where their parents were, in
 // their order. A level's nodes are taken when fewer than a workgroup stand above them, and those are taken with them;
 // so whenever children come to a level it is empty, and they are twice a workgroup at most.
-override WAITING: u32; // twice a workgroup for each level of the tree
+override WAITING: u32; // twice a workgroup for each level, or all of its nodes
 // What votes are about.
 const FAR: u32 = 0u;
 const NEAR: u32 = 1u;

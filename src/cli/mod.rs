@@ -51,6 +51,7 @@ use clap::Parser;
 
 use args::{Args, Command};
 use failure::Failure;
+use motes::Error;
 
 /// Parses the arguments, runs the command, and reports failures as a message and an exit code.
 pub fn main() -> ExitCode {
@@ -77,6 +78,11 @@ pub fn main() -> ExitCode {
 fn ended(result: Result<(), Failure>) -> ExitCode {
     match result.and_then(|()| Ok(stdout::flush()?)) {
         Ok(()) => ExitCode::SUCCESS,
+        // A driver may still be at work.
+        Err(failure @ Failure::Error(Error::Timeout { .. })) => {
+            failure.report();
+            stop::leave(7)
+        }
         Err(failure) => failure.report(),
     }
 }

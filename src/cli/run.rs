@@ -160,8 +160,8 @@ async fn start(
     };
     if let (Err(Failure::Error(Error::Timeout { .. })), Engine::Gpu(_)) = (&result, &engine) {
         // To drop a device that does not respond would block.
-        let code = result.err().map(Failure::report);
-        std::process::exit(if code.is_some() { 7 } else { 0 });
+        let _ = result.err().map(Failure::report);
+        stop::leave(7);
     }
     result
 }

@@ -27,6 +27,13 @@ pub fn listen(args: &StopArgs) -> Stop {
     stop
 }
 
+/// Ends the program at once, with what is printed. While a driver compiles, its own handlers of an exit crash (NVIDIA 580), so that they are left
+/// out where the system can do so.
+pub fn leave(code: u8) -> ! {
+    let _ = super::stdout::flush();
+    signals::leave(code.into())
+}
+
 /// The signals of the system.
 #[cfg(unix)]
 mod signals {
@@ -48,6 +55,12 @@ mod signals {
             Err(_) => false,
         }
     }
+    /// Ends the process without handlers.
+    #[expect(unsafe_code, reason = "the only way to leave them out")]
+    pub fn leave(code: i32) -> ! {
+        // SAFETY: it does not return, and has no conditions.
+        unsafe { nix::libc::_exit(code) }
+    }
     /// Ignores a signal.
     #[expect(unsafe_code, reason = "no function of this program is called by it")]
     pub fn ignore(what: Signal) {
@@ -62,6 +75,9 @@ mod signals {
     pub const HANGUP: () = ();
     pub const TOO_LARGE: () = ();
 
+    pub fn leave(code: i32) -> ! {
+        std::process::exit(code)
+    }
     pub fn hangup_is_ignored() -> bool {
         false
     }

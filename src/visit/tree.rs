@@ -27,11 +27,11 @@ const TARGETS: u32 = 1 << 20;
 const LEAST: f64 = 1e-30;
 
 /// The number of particles from which the tree is faster than direct summation. Measured on lavapipe by
-/// `cargo bench --bench baselines -- tree`; for GPUs it is an estimate: on an H200 all pairs take 0.2 ms for 16 384 and 2.6 ms for 65 536
-/// particles, and the tree took 1.5 ms for 100 000.
+/// `cargo bench --bench baselines -- tree`; for GPUs it is an estimate from an H200: all pairs take 0.2 ms for 16 384
+/// and 2.6 ms for 65 536 particles; the tree takes 8 ns for each, and some 0.4 ms for launches.
 #[must_use]
 pub fn crossing(machine: &Machine) -> u32 {
-    if machine.software { 6144 } else { 49_152 }
+    if machine.software { 6144 } else { 32_768 }
 }
 
 impl Over {
@@ -145,7 +145,7 @@ pub fn kernel(law: Law, tree: &Tree, problem: &Problem) -> Result<Kernel, Error>
     let mut constants = problem.constants(&shader);
     constants.extend([("GROUP", f64::from(GROUP)), ("LEAF", f64::from(LEAF))]);
     constants.extend(law.mark());
-    constants.extend(shader.reflection().known(&[("WAITING", f64::from(2 * GROUP * (tree.height() + 1)))]));
+    constants.extend(shader.reflection().known(&[("WAITING", f64::from(waiting(tree)))]));
     let each = pair_evaluations(tree, problem);
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "few")]
     let mut groups = (machine.meetings as f64 / each / f64::from(GROUP)).clamp(1.0, f64::from(TARGETS / GROUP)) as u32;
@@ -207,6 +207,12 @@ pub fn kernel(law: Law, tree: &Tree, problem: &Problem) -> Result<Kernel, Error>
 const KEPT_WALKS: &str = "tree_kept";
 /// The workgroup counts of dispatches that continue walks.
 const GO: &str = "tree go";
+
+/// The room for nodes that wait to be tested by `tree_tile.wgsl`: of each level at most two for each lane, or all that there are.
+fn waiting(tree: &Tree) -> u32 {
+    let wait = |level: u32| 1u32.checked_shl(level).map_or(2 * GROUP, |all| all.min(2 * GROUP));
+    (0..=tree.height()).map(wait).sum::<u32>().max(GROUP)
+}
 
 /// The approximate number of pair evaluations that equal a target's walk: an estimate of time only.
 fn pair_evaluations(tree: &Tree, problem: &Problem) -> f64 {

@@ -79,12 +79,14 @@ fn a_year_of_the_solar_system_is_right_to_5e_7_au() {
     let exact = state(&mut exact);
     // What is left are roundings of forces and of products with dt, which walk at random: 8e-8 in each of n = 46 752 kicks on an orbit's
     // 26 radians turn Mercury by √3 26² 8e-8 / √n radians, 1.7e-7 AU; and G is off by 6e-9, which moves it by 1e-7 AU. A driver's
-    // inverse square root may err by two units and always to one side, where a third of a unit is as much as 1e-7 of G: 3e-7 AU for Mercury and
-    // 8e-8 AU for Jupiter (NVIDIA's: 4e-7 and 6e-8). Plain sums round small forces away beside that of the Sun, always to one side: 4e-8 of it, 8e-7 AU for Mercury and 6e-7 AU for Venus, whatever the step.
+    // inverse square root may err by two units, and where it does so to one side, by a sixteenth of a unit, forces are as by another G: 2e-8 of
+    // it move Mercury by 4e-7 AU. That, and 6e-8 AU for Jupiter, were seen on an H200. Plain sums round small forces away beside that of the
+    // Sun, always to one side: 4e-8 of it, 8e-7 AU for Mercury and 6e-7 AU for Venus, whatever the step.
     for precision in ["compensated", "double_single"] {
         let two = errors(&shared, &exact, "0.03125", 11_688, precision);
         println!("{precision}: {two:?}");
-        assert!(two[..4].iter().all(|error| *error < 5e-7) && two[4..].iter().all(|error| *error < 1e-7), "{two:?}");
+        let [inner, outer] = if crate::support::is_software(&shared) { [3e-7, 3e-8] } else { [5e-7, 1e-7] };
+        assert!(two[..4].iter().all(|error| *error < inner) && two[4..].iter().all(|error| *error < outer), "{two:?}");
     }
     let one = errors(&shared, &exact, "0.25", 1461, "single");
     assert!(one.iter().all(|error| *error > 3e-6), "{one:?}");

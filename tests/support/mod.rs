@@ -42,6 +42,11 @@ fn opened(instance: &motes::wgpu::Instance) -> Shared {
     Shared { found: found.expect("tests need an adapter; tests/run installs one") }
 }
 
+/// Whether a device is a processor.
+pub fn is_software(shared: &Shared) -> bool {
+    shared.found.adapter.get_info().device_type == motes::wgpu::DeviceType::Cpu
+}
+
 /// Devices that tests share: while one computes, the host of another compiles or evaluates references.
 const DEVICES: usize = 4;
 

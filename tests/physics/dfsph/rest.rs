@@ -6,6 +6,7 @@ use motes::sph::PRESSURE;
 use motes::{POSITION, VELOCITY};
 
 use crate::dfsph::{DENSITY, SPACING, Tank, WEIGHT};
+use crate::support::is_software;
 
 /// Steps that pressure is averaged over.
 const LAST: u32 = 40;
@@ -47,10 +48,9 @@ fn a_column_at_rest_stays_and_weighs() {
         assert!((top - 0.5).abs() < 0.5, "the top has moved by {top} - 0.5 spacings");
         let speed = v.iter().map(|v| v.length()).fold(0.0, f64::max) / fastest;
         assert!(speed < 0.03, "{speed} of the speed of a fall");
-        // In layers of four: neighbouring ones of a lattice know little of each other. In the mean a solve leaves a compression of 1e-4 a step,
-        // where weight unopposed would make one of g dt² / h: so much of the weight, 6 % or 4 %, need not be borne. With lavapipe 1.1 %
-        // of the weight on the bottom was seen, with an H200 3 %.
-        let allowed = 1e-4 * SPACING / (WEIGHT * dt * dt);
+        // In layers of four: neighbouring ones of a lattice know little of each other. Within 2 % of what weighs on the bottom,
+        // where a layer is 5 % or 8 % of it (1.1 % was seen); on an H200 3 % was seen, so that twice that is allowed on a GPU.
+        let allowed = if is_software(&shared) { 0.02 } else { 0.06 };
         let wide = 4 * x.len() / tank.layers;
         let mean = |of: &[f64]| of.iter().sum::<f64>() / of.len() as f64;
         let off: Vec<f64> = p.chunks(wide).zip(depth.chunks(wide)).map(|(p, depth)| mean(p) - mean(depth)).collect();
