@@ -15,6 +15,8 @@ use crate::support::states::{force, integrator};
 use crate::support::{self, Random, choices};
 
 const ALWAYS_SET: &str = "the host sets every override";
+const BRIDGE: &str = "shaders/grains/bridge.wgsl";
+const TOUCH: &str = "shaders/grains/touch.wgsl";
 const EDGE: &str = "no pair lies exactly at the edge";
 
 pub const EQUIVALENT: &[Equivalent] = &[
@@ -163,7 +165,8 @@ fn grains(device: &Device, stages: &mut Vec<Stage>) {
         let plans = setup.plans(machine).expect("plans");
         let kernel = plans.step.kernels.into_iter().find(|kernel| kernel.name == "contact").expect("a contact");
         // An overlap is the small difference of radii and a distance, and ψ at its limit that of two torques.
-        stages.push(Stage::of("grains", simulation, alone(kernel)).slack(8.0));
+        let stage = Stage::of("grains", simulation, alone(kernel)).slack(8.0);
+        stages.push(if tension > 0.0 { stage } else { stage.overlooking(BRIDGE) });
     }
 }
 
@@ -248,7 +251,9 @@ fn walls(device: &Device, stages: &mut Vec<Stage>) {
                     lifted(&mut simulation, DVec3::new(0.3, -0.2, 0.9).normalize(), radius, heights);
                 }
                 // What is dissipated is the difference of the power of forces and of what springs gain.
-                stages.push(Stage::of("wall", simulation, alone(kernel.clone())).slack(30.0));
+                let stage = Stage::of("wall", simulation, alone(kernel.clone())).slack(30.0);
+                // Dry walls show nothing of bridges, and all of a contact.
+                stages.push(stage.overlooking(if is_wet { TOUCH } else { BRIDGE }));
             }
         }
     }

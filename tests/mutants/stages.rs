@@ -44,6 +44,8 @@ pub struct Stage {
     expected: Option<(&'static str, Vec<f32>)>,
     /// How many times what is allowed elsewhere may be wrong.
     slack: f64,
+    /// A file that runs here to no effect.
+    overlooked: Option<&'static str>,
 }
 
 impl Stage {
@@ -72,7 +74,16 @@ impl Stage {
             (name, bytes)
         };
         let fields = names.filter(|n| n != "world").map(read).collect();
-        Self { name: name.to_owned(), plan, simulation: shared, fields, clock, expected: None, slack: 1.0 }
+        Self {
+            name: name.to_owned(),
+            plan,
+            simulation: shared,
+            fields,
+            clock,
+            expected: None,
+            slack: 1.0,
+            overlooked: None,
+        }
     }
     /// The same stage, judged by what a field holds in the end.
     pub fn expected(self, field: &'static str, values: Vec<f32>) -> Self {
@@ -81,6 +92,10 @@ impl Stage {
     /// The same stage, where more may be wrong.
     pub fn slack(self, slack: f64) -> Self {
         Self { slack, ..self }
+    }
+    /// The same stage, which is shown no mutant of a file.
+    pub fn overlooking(self, file: &'static str) -> Self {
+        Self { overlooked: Some(file), ..self }
     }
     fn holds(gpu: &mut Gpu, plan: &Plan, field: &str, want: &[f32]) -> Result<bool, motes::Error> {
         let program = gpu.compile(plan)?;
@@ -136,8 +151,11 @@ impl Stage {
     pub fn count(&self) -> u32 {
         self.simulation.borrow().count()
     }
-    /// Whether a file is part of what runs here.
+    /// Whether a file is part of what runs here to any effect.
     pub fn uses(&self, file: &str) -> bool {
+        if self.overlooked == Some(file) {
+            return false;
+        }
         let mut passes = self.plan.kernels.iter().flat_map(|k| &k.passes);
         passes.any(|p| p.shader.sources().iter().any(|s| s.file == file))
     }
