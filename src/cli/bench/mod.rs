@@ -22,8 +22,8 @@ use results::Results;
 
 /// The maximum duration of a measurement, unless a step is longer \[s\].
 const SPAN: f64 = 0.3;
-/// The number of steps after which a scene begins again, so that what is measured is the scene, and not what becomes of it on a fast device:
-/// each bird of a flock has 10 neighbours at its begin, and 150 after 2000 steps.
+/// The number of steps after which the particles are put back, so that the scene as it is given is measured on a fast device too: a particle of
+/// `flock` has 10 neighbours at the start, and 150 after 2000 steps.
 const MOST: u32 = 200;
 /// Numbers of iterations of a solve: the time of an iteration is the difference between steps with many and with few.
 const ITERATIONS: [u32; 2] = [4, 24];
@@ -103,7 +103,7 @@ async fn row(args: &BenchArgs, found: &Found, case: &Case) -> Result<Value, Fail
     let count = setup.state.len();
     let mut simulation = Simulation::new(&found.device, &found.queue, &setup)?;
     drop(setup);
-    // Of all topics flocks and fluids change as they go on.
+    // Of all topics only flocks and fluids change their speed with time.
     let changes = matches!(name, "neighbors" | "fluids" | "incompressible");
     let mut rerun = if changes { Rerun::of(&mut simulation).await? } else { Rerun::default() };
     let times = times(&mut simulation, &mut rerun, repeat)?;
@@ -129,7 +129,7 @@ async fn solve(args: &BenchArgs, found: &Found, case: &Case) -> Result<Value, Fa
         simulations.push(Simulation::new(&found.device, &found.queue, &setup)?);
     }
     let mut times = Vec::new();
-    // A device whose work is a step now and then lowers its clocks: steps are taken in a row.
+    // A device that idles between steps lowers its clock: several steps are submitted in a row.
     let mut steps = 1;
     for turn in 0..=args.repeat.max(1) {
         let mut seconds = Vec::new();
@@ -150,7 +150,7 @@ async fn solve(args: &BenchArgs, found: &Found, case: &Case) -> Result<Value, Fa
             }
         }
         if turn == 0 {
-            steps = steps_in(SPAN, seconds[1]);
+            steps = steps_for(seconds[1]);
         } else {
             times.push((seconds[1] - seconds[0]) / f64::from(ITERATIONS[1] - ITERATIONS[0]));
         }
@@ -171,7 +171,7 @@ fn median(all: &[f64]) -> f64 {
     sorted.get(sorted.len() / 2).copied().unwrap_or(f64::NAN)
 }
 
-/// A scene whose particles begin again; all else goes on.
+/// Positions and velocities at the start of a scene, for repeated measurements; all other state is kept.
 #[derive(Default)]
 struct Rerun {
     position: Vec<Vec4>,
@@ -183,7 +183,7 @@ impl Rerun {
     async fn of(simulation: &mut Simulation<Gpu>) -> Result<Self, Error> {
         Ok(Self { position: simulation.read(POSITION).await?, velocity: simulation.read(VELOCITY).await?, taken: 0 })
     }
-    /// Puts the particles back where they began, unless so many steps more are still near the begin.
+    /// Puts the particles back to the start, unless this number of further steps is within [`MOST`].
     fn prepare(&mut self, simulation: &mut Simulation<Gpu>, steps: u32) -> Result<(), Error> {
         self.taken += steps;
         if self.taken > MOST && !self.position.is_empty() {
@@ -196,10 +196,10 @@ impl Rerun {
     }
 }
 
-/// The number of steps that fit into a time, before a scene begins again.
+/// The number of steps of this duration \[s\] in a measurement, before the particles are put back.
 #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a small whole number")]
-fn steps_in(span: f64, step: f64) -> u32 {
-    (span / step).clamp(1.0, f64::from(MOST - 1)) as u32
+fn steps_for(step: f64) -> u32 {
+    (SPAN / step).clamp(1.0, f64::from(MOST - 1)) as u32
 }
 
 /// Repeated measurements of the seconds of a step; the first steps, in which a device compiles, do not count.
@@ -212,6 +212,6 @@ fn times(simulation: &mut Simulation<Gpu>, rerun: &mut Rerun, repeat: usize) -> 
         Ok(start.elapsed().as_secs_f64() / f64::from(steps))
     };
     take(1)?;
-    let steps = steps_in(SPAN, take(1)?);
+    let steps = steps_for(take(1)?);
     (0..repeat).map(|_| take(steps)).collect()
 }

@@ -112,8 +112,8 @@ fn lockstep() {
         people.position_mut().iter_mut().for_each(|x| *x += DVec3::new(2.5, 6.0, 0.0));
         let forces = vec![force("navigate", &[]), force("social_force", &[]), wall(&[("range", 2.5)])];
         let setup = setup(people.on_floor(room()), forces, 1e-3);
-        // Places on this floor reach 10 m, whose last place, 1e-6 m, is 1.2e-5 of the decay of 0.08 m, and so of a repulsion: some of
-        // them are lost on the way to a wall, and not the same ones where a driver contracts a · b + c (5.3 was seen there).
+        // Places on this floor reach 10 m, whose last place, 1e-6 m, is 1.2e-5 of the decay of 0.08 m, and so of a repulsion: the
+        // distance to a wall is rounded by some of them, and otherwise where a driver contracts a · b + c (5.3 was seen there).
         agrees(&setup, 3, 8.0, &["navigate", "social_wall", "walls keep", "inside"]);
     }
 }
