@@ -39,6 +39,13 @@ pub struct List {
     pub grid: Grid,
 }
 
+/// A length in single precision, as on the device: what is computed from given numbers has more digits than they had.
+fn shown(length: f64) -> String {
+    #[expect(clippy::cast_possible_truncation, reason = "rounded to be read")]
+    let single = length as f32;
+    format!("{single:?}")
+}
+
 impl List {
     /// The list of such a shape.
     ///
@@ -55,17 +62,15 @@ impl List {
         checked(shape.reach())?;
         let rounding = ROUNDING * coordinate(&problem.bounds);
         let grid = Grid::new(shape.reach() * (1.0 + WIDER) + rounding, None, problem)?;
-        Ok(Self { shape, grid: Grid { name: format!("the list {:?}", shape.reach()), ..grid } })
+        Ok(Self { shape, grid: Grid { name: format!("the list {}", shown(shape.reach())), ..grid } })
     }
     /// Its name in a plan.
     #[must_use]
     pub fn title(&self) -> String {
         let ListShape { range, skin, words, capacity } = self.shape;
-        // In single precision as on the device: the difference of two numbers has more digits than were given.
-        #[expect(clippy::cast_possible_truncation, reason = "rounded to be read")]
-        let skin = skin as f32;
+        let (range, skin) = (shown(range), shown(skin));
         let words = if words > 0 { format!(" WORDS={words}") } else { String::new() };
-        format!("list RANGE={range:?} SKIN={skin:?} CAPACITY={capacity}{words}")
+        format!("list RANGE={range} SKIN={skin} CAPACITY={capacity}{words}")
     }
     /// The distance that a particle may move before the list must be rebuilt \[length\].
     #[must_use]
