@@ -1,10 +1,12 @@
 //! What the pixels of a plan are.
 
+#[cfg(feature = "images")]
 use std::io::Cursor;
 
 use super::areas::{EXIT, OPEN, WALL};
 
 /// Pixels of a plan, at most: eight thousand each way.
+#[cfg(feature = "images")]
 const MOST: u64 = 64 << 20;
 /// Coloured is what has this much more of one colour than of another, of 255.
 const COLORED: u8 = 90;
@@ -32,6 +34,7 @@ impl Picture {
 }
 
 /// Reads a PNG.
+#[cfg(feature = "images")]
 pub fn read(bytes: &[u8]) -> Result<Picture, String> {
     let refused = |why: &dyn std::fmt::Display| format!("it is no PNG, or damaged ({why})");
     let mut decoder = png::Decoder::new(Cursor::new(bytes));
@@ -57,7 +60,7 @@ pub fn read(bytes: &[u8]) -> Result<Picture, String> {
 }
 
 /// The kind of a pixel on white paper.
-fn kind(rgb: [u8; 3], alpha: u8) -> u8 {
+pub fn kind(rgb: [u8; 3], alpha: u8) -> u8 {
     let on_white = |x: u8| 255 - u32::from(255 - x) * u32::from(alpha) / 255;
     let rgb = rgb.map(on_white);
     let (most, least) = (rgb.iter().max().copied().unwrap_or(0), rgb.iter().min().copied().unwrap_or(0));
