@@ -3,7 +3,7 @@
 use glam::{BVec2, DVec2};
 
 use super::Plan;
-use super::measure::{Measure, PIXEL};
+use super::measure::{Measure, PIXEL, rounded};
 use super::picture::{self, EXIT, Mark, OPEN, Picture, WALL};
 
 /// Pixels, unless their side is given.
@@ -98,9 +98,10 @@ impl Canvas {
         };
         if count(side) > MOST {
             return Err(format!(
-                "the drawing is {:.6} by {:.6} m, and with pixels of {side} m these are more than the {MOST} that a plan may have: check its scale, or \
+                "the drawing is {} by {} m, and with pixels of {side} m these are more than the {MOST} that a plan may have: check its scale, or \
                  choose larger ones with --pixel, or pixel in [plan]",
-                size.x, size.y
+                rounded(size.x),
+                rounded(size.y)
             ));
         }
         // Corners at multiples of pixels are on the grid.

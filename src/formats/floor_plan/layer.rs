@@ -10,30 +10,48 @@ pub enum Layer {
     LeftOut,
 }
 
-/// Words of names, and what they say; of several words the first of this list counts.
-const WORDS: &[(&str, Layer)] = &[
-    ("exit", Layer::Exits),
-    ("exits", Layer::Exits),
-    ("furniture", Layer::LeftOut),
-    ("door", Layer::LeftOut),
-    ("doors", Layer::LeftOut),
-    ("dimension", Layer::LeftOut),
-    ("dimensions", Layer::LeftOut),
-    ("text", Layer::LeftOut),
-    ("texts", Layer::LeftOut),
-    ("label", Layer::LeftOut),
-    ("labels", Layer::LeftOut),
-    ("annotation", Layer::LeftOut),
-    ("annotations", Layer::LeftOut),
-    ("wall", Layer::Walls),
-    ("walls", Layer::Walls),
-    ("floor", Layer::Floor),
+/// Words of names, and what they say.
+const WORDS: &[(&[&str], Layer)] = &[
+    (&["exit", "exits"], Layer::Exits),
+    (&["door", "doors", "furniture", "stair", "stairs", "dimension", "dimensions"], Layer::LeftOut),
+    (&["text", "texts", "label", "labels", "annotation", "annotations"], Layer::LeftOut),
+    // No way leads through windows and columns, either.
+    (&["wall", "walls", "window", "windows", "column", "columns", "pillar", "pillars"], Layer::Walls),
 ];
+/// The whole name of a floor: with more, as in `Floor 2` or `ground floor`, it is that of a storey.
+const FLOOR: [&str; 2] = ["floor", "floors"];
 
 impl Layer {
-    /// What a name says, as of `A-WALL`, `outer walls` or `exit_2`.
+    /// What a name says, as of `A-WALL`, `outer walls` or `exit_2`; of several words the first of the list counts.
     pub fn of(name: &str) -> Option<Self> {
-        let has = |word: &str| name.split(|c: char| !c.is_alphabetic()).any(|part| part.eq_ignore_ascii_case(word));
-        WORDS.iter().find(|(word, _)| has(word)).map(|(_, layer)| *layer)
+        let has = |word: &&str| name.split(|c: char| !c.is_alphabetic()).any(|part| part.eq_ignore_ascii_case(word));
+        let by_word = WORDS.iter().find(|(words, _)| words.iter().any(|word| has(word))).map(|(_, layer)| *layer);
+        let is_floor = FLOOR.iter().any(|word| name.trim().eq_ignore_ascii_case(word));
+        by_word.or_else(|| is_floor.then_some(Self::Floor))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn words_and_whole_names_say_what_it_is() {
+        for (name, layer) in [
+            ("A-WALL", Some(Layer::Walls)),
+            ("outer walls", Some(Layer::Walls)),
+            ("Windows_2", Some(Layer::Walls)),
+            ("exit-to-wall-street", Some(Layer::Exits)),
+            ("exit_2", Some(Layer::Exits)),
+            ("wall of the door", Some(Layer::LeftOut)),
+            ("Floor", Some(Layer::Floor)),
+            ("Floor 2", None),
+            ("3-floor", None),
+            ("wallpaper", None),
+            ("outdoors", None),
+            ("", None),
+        ] {
+            assert_eq!(Layer::of(name), layer, "{name}");
+        }
     }
 }

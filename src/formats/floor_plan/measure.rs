@@ -23,6 +23,11 @@ pub struct Measure {
     pub pixel: Option<f64>,
 }
 
+/// A length for a message, to a thousandth.
+pub(super) fn rounded(x: f64) -> f64 {
+    (1e3 * x).round() / 1e3
+}
+
 impl FromStr for Scale {
     type Err = String;
 

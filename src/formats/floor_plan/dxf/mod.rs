@@ -1,5 +1,5 @@
 //! Floor plans as DXF in ASCII: lines on layers. What is on a layer whose name has the word `walls` is a wall, or all lines, if there is no such layer; what
-//! is on a layer with `exits` is an exit; closed outlines on a layer with `floor` are the floor. Layers of doors, furniture, dimensions and text are left out.
+//! is on a layer with `exits` is an exit; closed outlines on a layer `floor` are the floor. Layers of doors, stairs, furniture, dimensions and text are left out.
 //!
 //! Understood are LINE, LWPOLYLINE, POLYLINE, ARC, CIRCLE, ELLIPSE, SOLID, TRACE, and INSERT of blocks of these; others are counted. Units are those of
 //! `$INSUNITS`.
@@ -15,7 +15,7 @@ use glam::DVec2;
 use super::Plan;
 use super::canvas::{Canvas, Ink, Rule};
 use super::layer::Layer;
-use super::measure::Measure;
+use super::measure::{Measure, rounded};
 use blocks::{Drawing, Shape};
 use groups::Object;
 use outline::Fine;
@@ -64,9 +64,10 @@ pub fn read(text: &str, measure: &Measure) -> Result<Plan, String> {
     let Some(unit) = unit else {
         let size = high - low;
         return Err(format!(
-            "it has no unit ($INSUNITS): it is {:.6} by {:.6} units large; give the length of one in metres, as in --scale 0.001, or scale = 0.001 in \
+            "it has no unit ($INSUNITS): it is {} by {} units large; give the length of one in metres, as in --scale 0.001, or scale = 0.001 in \
              [plan], if these are millimetres",
-            size.x, size.y
+            rounded(size.x),
+            rounded(size.y)
         ));
     };
     plan(drawing, (low * unit, high * unit, unit), measure)

@@ -68,7 +68,7 @@ pub struct Corner {
 pub fn polyline(corners: &[Corner], is_closed: bool, width: f64, fine: Fine) -> Outline {
     let mut points: Vec<DVec2> = corners.first().map(|corner| corner.at).into_iter().collect();
     corners.windows(2).for_each(|pair| fine.side(pair[0].at, pair[1].at, pair[0].bulge, &mut points));
-    if let (true, Some(first), Some(last)) = (is_closed && corners.len() > 2, corners.first(), corners.last()) {
+    if let (true, Some(first), Some(last)) = (is_closed && corners.len() > 1, corners.first(), corners.last()) {
         fine.side(last.at, first.at, last.bulge, &mut points);
     }
     Outline { points, width, is_filled: false }

@@ -1,6 +1,7 @@
 //! Floor plans as SVG, drawn as a picture: dark strokes and areas are walls, coloured ones are exits, and light ones cover what is below. Names of elements and of
 //! groups say more (see [`names`]). Coordinates of the plan are metres from the lower left corner of the drawing.
 
+mod depth;
 mod names;
 mod paint;
 mod path;
@@ -19,8 +20,11 @@ use paint::Painter;
 
 /// Elements, at most.
 const MOST: u32 = 500_000;
-/// Groups within each other.
+/// Elements within each other, with what they refer to.
 const DEEPEST: usize = 200;
+/// The stack for that \[bytes\].
+#[cfg(not(target_arch = "wasm32"))]
+const STACK: usize = 1 << 26;
 /// What entities of a DTD may add up to \[bytes\].
 const LONGEST: usize = 1 << 26;
 /// Markers are arrowheads and the like, and no walls.
@@ -32,6 +36,18 @@ const STYLE: &str =
 /// # Errors
 /// A sentence, with the line where there is one: what is no SVG, has no size or no scale, is nested too deeply, or has no exit.
 pub fn read(text: &str, measure: &Measure) -> Result<Plan, String> {
+    // Parsers and trees call themselves for what is nested.
+    #[cfg(not(target_arch = "wasm32"))]
+    return std::thread::scope(|scope| {
+        let thread = std::thread::Builder::new().stack_size(STACK).spawn_scoped(scope, || on_stack(text, measure));
+        let thread = thread.map_err(|why| format!("no thread can be started to read it ({why})"))?;
+        thread.join().unwrap_or_else(|_| Err("its reader failed: save it as plain SVG".to_owned()))
+    });
+    #[cfg(target_arch = "wasm32")]
+    return on_stack(text, measure);
+}
+
+fn on_stack(text: &str, measure: &Measure) -> Result<Plan, String> {
     entities_fit(text)?;
     let parsed = parsed(text)?;
     let root = parsed.root_element();
@@ -39,7 +55,8 @@ pub fn read(text: &str, measure: &Measure) -> Result<Plan, String> {
         let name = super::super::shortened(root.tag_name().name());
         return Err(format!("its first element is <{name}>, and that of an SVG is <svg>"));
     }
-    let names = Names::of(&parsed)?;
+    depth::check(&parsed)?;
+    let names = Names::of(&parsed);
     let written = size::Written::of(&root)?;
     drop(parsed);
     let text = names.edited(text);

@@ -6,7 +6,6 @@ use std::collections::{BTreeMap, HashMap, HashSet};
 use usvg::roxmltree::{Document, Node};
 
 use super::super::layer::Layer;
-use super::{DEEPEST, MOST};
 
 const SVG: &str = "http://www.w3.org/2000/svg";
 const INKSCAPE: &str = "http://www.inkscape.org/namespaces/inkscape";
@@ -69,7 +68,7 @@ pub struct Names {
 }
 
 impl Names {
-    pub fn of(parsed: &Document<'_>) -> Result<Self, String> {
+    pub fn of(parsed: &Document<'_>) -> Self {
         let mut names = Self::default();
         let text = parsed.input_text();
         let used: HashSet<&str> = parsed.descendants().filter_map(|node| node.attribute("id")).collect();
@@ -77,21 +76,10 @@ impl Names {
         let mut edited = HashSet::new();
         // Of each element around the present one, what it is.
         let mut around: Vec<(Node<'_, '_>, Option<(Layer, Option<String>)>)> = Vec::new();
-        let mut count = 0_u32;
         for node in parsed.descendants().filter(Node::is_element) {
-            count += 1;
             let line = || parsed.text_pos_at(node.range().start).row;
-            if count > MOST {
-                return Err(format!(
-                    "it has more than {MOST} elements, up to line {}: leave out what is no plan",
-                    line()
-                ));
-            }
             while around.last().is_some_and(|(last, _)| Some(*last) != node.parent_element()) {
                 around.pop();
-            }
-            if around.len() > DEEPEST {
-                return Err(format!("it is nested more than {DEEPEST} deep in line {}: take groups apart", line()));
             }
             let own = said(&node);
             let layer = own.or_else(|| around.last().and_then(|(_, layer)| layer.clone()));
@@ -122,7 +110,7 @@ impl Names {
                 names.shapes.entry(id).or_insert(Named { layer, name, line: line() });
             }
         }
-        Ok(names)
+        names
     }
     /// Whether shapes are named so.
     pub fn has(&self, layer: Layer) -> bool {
@@ -147,8 +135,9 @@ impl Names {
 /// What an element itself says, and the name of an exit.
 fn said(node: &Node<'_, '_>) -> Option<(Layer, Option<String>)> {
     let label = node.attribute((INKSCAPE, "label"));
-    let given = [label, node.attribute("id"), node.attribute("data-name"), node.attribute("class")];
-    let (layer, name) = given.into_iter().flatten().find_map(|name| Layer::of(name).map(|layer| (layer, name)))?;
+    let given = [label, node.attribute("id"), node.attribute("data-name")].into_iter().flatten();
+    let classes = node.attribute("class").unwrap_or_default().split_ascii_whitespace();
+    let (layer, name) = given.chain(classes).find_map(|name| Layer::of(name).map(|layer| (layer, name)))?;
     // A title, or a label, is a name that people read; `exits` and `exit_2` are none.
     let title = node.children().find(|child| child.tag_name().name() == "title").and_then(|title| title.text());
     let is_plain = |name: &str| name.split(|c: char| !c.is_alphabetic()).filter(|word| !word.is_empty()).count() < 2;

@@ -135,7 +135,10 @@ impl<'a> Painter<'a> {
             return Ok(());
         }
         let transform = self.transform.pre_concat(path.abs_transform());
-        let fill = path.fill().map(|fill| (fill.paint(), f64::from(fill.opacity().get()), Some(fill.rule())));
+        let bounds = path.data().bounds();
+        // A line is filled by default, too, and has no area.
+        let fill = path.fill().filter(|_| bounds.width() > 0.0 && bounds.height() > 0.0);
+        let fill = fill.map(|fill| (fill.paint(), f64::from(fill.opacity().get()), Some(fill.rule())));
         let stroke = path.stroke().map(|stroke| (stroke.paint(), f64::from(stroke.opacity().get()), None));
         let mut parts = [fill, stroke];
         if path.paint_order() == PaintOrder::StrokeAndFill {

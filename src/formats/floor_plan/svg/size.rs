@@ -3,7 +3,7 @@
 use glam::DVec2;
 use usvg::roxmltree::Node;
 
-use super::super::measure::{Measure, Scale};
+use super::super::measure::{Measure, Scale, rounded};
 
 /// An inch has so many pixels of CSS, and 0.0254 m.
 const PIXEL: f64 = 0.0254 / 96.0;
@@ -65,8 +65,11 @@ impl Size {
         let unit = ratio.min_element();
         if written.stretches && (ratio.max_element() / unit - 1.0).abs() > 1e-3 {
             return Err(format!(
-                "its view box of {:.6} by {:.6} is stretched to {:.6} by {:.6} (preserveAspectRatio is none): a floor has the same scale along x and y",
-                view.x, view.y, size.x, size.y
+                "its view box of {} by {} is stretched to {} by {} (preserveAspectRatio is none): a floor has the same scale along x and y",
+                rounded(view.x),
+                rounded(view.y),
+                rounded(size.x),
+                rounded(size.y)
             ));
         }
         let (per_pixel, remark) = match measure.scale {
@@ -94,12 +97,12 @@ impl Size {
             }
             None => {
                 return Err(format!(
-                    "the drawing is {:.6} by {:.6} units large, and has no scale: give the length of a unit in metres as in --scale 0.01, or scale = 0.01 \
-                     in [plan], which makes {:.6} by {:.6} m of it",
-                    view.x,
-                    view.y,
-                    0.01 * view.x,
-                    0.01 * view.y
+                    "the drawing is {} by {} units large, and has no scale: give the length of a unit in metres as in --scale 0.01, or scale = 0.01 \
+                     in [plan], which makes {} by {} m of it",
+                    rounded(view.x),
+                    rounded(view.y),
+                    rounded(0.01 * view.x),
+                    rounded(0.01 * view.y)
                 ));
             }
         };
