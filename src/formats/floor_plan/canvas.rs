@@ -10,6 +10,8 @@ use super::picture::{self, EXIT, Mark, OPEN, Picture, WALL};
 const USUAL: f64 = (16_u32 << 20) as f64;
 /// Pixels, at most.
 const MOST: f64 = (64_u32 << 20) as f64;
+/// Pixels that are not given are larger than [`PIXEL`] by these, at most.
+const COARSER: [f64; 4] = [1.0, 2.0, 4.0, 8.0];
 /// Pixels that all shapes together may cover, at most: more than a hundred of the largest grids.
 const PAINTED: u64 = 1 << 33;
 /// Lines are drawn at least as wide as this, so that no way leads across them, and exits as that \[pixels\].
@@ -68,10 +70,14 @@ pub struct Canvas {
     width: usize,
     height: usize,
     kinds: Vec<u8>,
+    /// What is around it.
+    around: u8,
     /// The place of the lower left corner \[m\].
     low: DVec2,
     /// The side of a pixel \[m\].
     pub side: f64,
+    /// What one should know of it.
+    remark: Option<String>,
     painted: u64,
     marks: Vec<Mark>,
 }
@@ -90,11 +96,7 @@ impl Canvas {
         let count = |side: f64| (size.x / side + 2.0) * (size.y / side + 2.0);
         let side = match measure.pixel {
             Some(side) => side,
-            None => (0..)
-                .map(|n| PIXEL * f64::from(1_u32 << n))
-                .take(20)
-                .find(|side| count(*side) <= USUAL)
-                .unwrap_or(PIXEL),
+            None => COARSER.map(|times| times * PIXEL).into_iter().find(|side| count(*side) <= USUAL).unwrap_or(PIXEL),
         };
         if count(side) > MOST {
             return Err(format!(
@@ -108,7 +110,15 @@ impl Canvas {
         let low = (low / side + 1e-6).floor() * side;
         let [width, height] = ((high - low) / side - 1e-6).ceil().max(DVec2::ONE).to_array().map(|n| n as usize);
         let kinds = vec![background.kind(); width * height];
-        Ok(Self { width, height, kinds, low, side, painted: 0, marks: Vec::new() })
+        let remark = (measure.pixel.is_none() && side > PIXEL).then(|| {
+            format!(
+                "the drawing is {} by {} m, and drawn on pixels of {side} m, as smaller ones would be more than {USUAL}: check its scale, or give --pixel, or \
+                 pixel in [plan]",
+                rounded(size.x),
+                rounded(size.y)
+            )
+        });
+        Ok(Self { width, height, kinds, around: background.kind(), low, side, remark, painted: 0, marks: Vec::new() })
     }
     /// A place on it \[pixels\], from one in metres.
     pub fn place(&self, x: DVec2) -> DVec2 {
@@ -173,8 +183,10 @@ impl Canvas {
     /// The plan that has been drawn.
     pub fn plan(self) -> Result<Plan, String> {
         let [width, height] = [self.width, self.height].map(|n| u32::try_from(n).unwrap_or(u32::MAX));
-        let picture = Picture { width, height, kinds: self.kinds };
-        picture::plan(picture, self.side, self.low, &self.marks)
+        let picture = Picture { width, height, kinds: self.kinds, around: self.around };
+        let mut plan = picture::plan(picture, self.side, self.low, &self.marks)?;
+        plan.remarks.extend(self.remark);
+        Ok(plan)
     }
     fn pay(&mut self, pixels: u64) -> Result<(), String> {
         self.painted += pixels;

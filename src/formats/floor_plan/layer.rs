@@ -25,7 +25,7 @@ impl Layer {
     /// What a name says, as of `A-WALL`, `outer walls` or `exit_2`; of several words the first of the list counts.
     pub fn of(name: &str) -> Option<Self> {
         let has = |word: &&str| name.split(|c: char| !c.is_alphabetic()).any(|part| part.eq_ignore_ascii_case(word));
-        let by_word = WORDS.iter().find(|(words, _)| words.iter().any(|word| has(word))).map(|(_, layer)| *layer);
+        let by_word = WORDS.iter().find(|(words, _)| words.iter().any(&has)).map(|(_, layer)| *layer);
         let is_floor = FLOOR.iter().any(|word| name.trim().eq_ignore_ascii_case(word));
         by_word.or_else(|| is_floor.then_some(Self::Floor))
     }

@@ -45,10 +45,10 @@ impl FromStr for Scale {
 
 impl Measure {
     /// The side of the pixels of a picture \[m\].
+    #[cfg(feature = "images")]
     pub(super) fn of_picture(&self) -> Result<f64, String> {
         match (self.pixel, self.scale) {
-            (Some(side), None) => Ok(side),
-            (None, Some(Scale::Unit(side))) => Ok(side),
+            (Some(side), None) | (None, Some(Scale::Unit(side))) => Ok(side),
             (Some(_), Some(_)) => {
                 Err("the length of its pixels is given twice, as pixel and as scale: leave one of them out".to_owned())
             }

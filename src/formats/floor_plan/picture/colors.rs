@@ -18,18 +18,20 @@ pub struct Picture {
     pub width: u32,
     pub height: u32,
     pub kinds: Vec<u8>,
+    /// The kind of what is around it.
+    pub around: u8,
 }
 
 impl Picture {
-    /// The same with a margin of paper on all sides \[pixels\].
+    /// The same with a margin on all sides \[pixels\].
     pub fn within(self, margin: u32) -> Self {
         let (width, height) = (self.width + 2 * margin, self.height + 2 * margin);
-        let mut kinds = vec![OPEN; width as usize * height as usize];
+        let mut kinds = vec![self.around; width as usize * height as usize];
         for (row, y) in self.kinds.chunks_exact(self.width as usize).zip(margin as usize..) {
             let start = y * width as usize + margin as usize;
             kinds[start..start + row.len()].copy_from_slice(row);
         }
-        Self { width, height, kinds }
+        Self { width, height, kinds, around: self.around }
     }
 }
 
@@ -56,7 +58,7 @@ pub fn read(bytes: &[u8]) -> Result<Picture, String> {
         png::ColorType::Rgba => samples.chunks_exact(4).map(|x| kind([x[0], x[1], x[2]], x[3])).collect(),
         png::ColorType::Indexed => return Err(refused(&"its palette is missing")),
     };
-    Ok(Picture { width, height, kinds })
+    Ok(Picture { width, height, kinds, around: OPEN })
 }
 
 /// The kind of a pixel on white paper.

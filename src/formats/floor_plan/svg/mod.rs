@@ -75,7 +75,7 @@ fn on_stack(text: &str, measure: &Measure) -> Result<Plan, String> {
     let canvas = Canvas::over(glam::DVec2::ZERO, size.metres, measure, background)?;
     let mut painter = Painter::new(canvas, &names, size.per_pixel, &tree);
     painter.draw(&tree)?;
-    let (canvas, mut remarks) = painter.done()?;
+    let (canvas, mut remarks) = painter.done();
     remarks.extend(size.remark);
     let mut plan = canvas.plan()?;
     plan.remarks.extend(remarks);

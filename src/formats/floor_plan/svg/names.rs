@@ -51,6 +51,13 @@ pub struct Named {
     pub line: u32,
 }
 
+/// What a name says.
+#[derive(Debug, Clone)]
+struct Said {
+    layer: Layer,
+    name: Option<String>,
+}
+
 /// An id that is added to an element.
 struct Edit {
     at: usize,
@@ -72,18 +79,20 @@ impl Names {
         let mut names = Self::default();
         let text = parsed.input_text();
         let used: HashSet<&str> = parsed.descendants().filter_map(|node| node.attribute("id")).collect();
-        let fresh = |number: usize| (0..).map(|k| format!("shape-{number}-{k}")).find(|id| !used.contains(id.as_str()));
+        let fresh = |number: usize| {
+            (0..=used.len()).map(|k| format!("shape-{number}-{k}")).find(|id| !used.contains(id.as_str()))
+        };
         let mut edited = HashSet::new();
         // Of each element around the present one, what it is.
-        let mut around: Vec<(Node<'_, '_>, Option<(Layer, Option<String>)>)> = Vec::new();
+        let mut around: Vec<(Node<'_, '_>, Option<Said>)> = Vec::new();
         for node in parsed.descendants().filter(Node::is_element) {
             let line = || parsed.text_pos_at(node.range().start).row;
             while around.last().is_some_and(|(last, _)| Some(*last) != node.parent_element()) {
                 around.pop();
             }
             let own = said(&node);
-            let layer = own.or_else(|| around.last().and_then(|(_, layer)| layer.clone()));
-            around.push((node, layer.clone()));
+            let said = own.or_else(|| around.last().and_then(|(_, said)| said.clone()));
+            around.push((node, said.clone()));
             let tag = node.tag_name();
             if tag.namespace().is_none_or(|space| space == SVG) {
                 let is_shape = SHAPES.contains(&tag.name());
@@ -92,20 +101,18 @@ impl Names {
                 if !is_shape && !is_part && !SILENT.contains(&tag.name()) {
                     *names.others.entry(tag.name().to_owned()).or_default() += 1;
                 }
-                let Some((layer, name)) = layer.filter(|_| is_shape) else { continue };
-                let id = match node.attribute("id") {
-                    Some(id) => id.to_owned(),
-                    None => {
-                        let Some(id) = fresh(names.edits.len()) else { continue };
-                        // After the name of the element; entities may stand for the same text several times.
-                        let start = node.range().start;
-                        let open = text[start..].find(|c: char| c.is_whitespace() || matches!(c, '/' | '>'));
-                        let Some(at) = open.map(|length| start + length).filter(|at| edited.insert(*at)) else {
-                            continue;
-                        };
-                        names.edits.push(Edit { at, id: id.clone() });
-                        id
-                    }
+                let Some(Said { layer, name }) = said.filter(|_| is_shape) else { continue };
+                let name = title(&node).filter(|_| layer == Layer::Exits).or(name);
+                let id = if let Some(id) = node.attribute("id") {
+                    id.to_owned()
+                } else {
+                    let Some(id) = fresh(names.edits.len()) else { continue };
+                    // After the name of the element; entities may stand for the same text several times.
+                    let start = node.range().start;
+                    let open = text[start..].find(|c: char| c.is_whitespace() || matches!(c, '/' | '>'));
+                    let Some(at) = open.map(|length| start + length).filter(|at| edited.insert(*at)) else { continue };
+                    names.edits.push(Edit { at, id: id.clone() });
+                    id
                 };
                 names.shapes.entry(id).or_insert(Named { layer, name, line: line() });
             }
@@ -133,14 +140,18 @@ impl Names {
 }
 
 /// What an element itself says, and the name of an exit.
-fn said(node: &Node<'_, '_>) -> Option<(Layer, Option<String>)> {
+fn said(node: &Node<'_, '_>) -> Option<Said> {
     let label = node.attribute((INKSCAPE, "label"));
     let given = [label, node.attribute("id"), node.attribute("data-name")].into_iter().flatten();
     let classes = node.attribute("class").unwrap_or_default().split_ascii_whitespace();
     let (layer, name) = given.chain(classes).find_map(|name| Layer::of(name).map(|layer| (layer, name)))?;
-    // A title, or a label, is a name that people read; `exits` and `exit_2` are none.
+    // `exits` and `exit_2` are no names that people read.
+    let is_plain = name.split(|c: char| !c.is_alphabetic()).filter(|word| !word.is_empty()).count() < 2;
+    Some(Said { layer, name: (layer == Layer::Exits && !is_plain).then(|| name.trim().to_owned()) })
+}
+
+/// The title of an element, for an exit.
+fn title(node: &Node<'_, '_>) -> Option<String> {
     let title = node.children().find(|child| child.tag_name().name() == "title").and_then(|title| title.text());
-    let is_plain = |name: &str| name.split(|c: char| !c.is_alphabetic()).filter(|word| !word.is_empty()).count() < 2;
-    let name = title.or((layer == Layer::Exits && !is_plain(name)).then_some(name));
-    Some((layer, name.map(|name| name.trim().to_owned()).filter(|name| !name.is_empty() && layer == Layer::Exits)))
+    title.map(|title| title.trim().to_owned()).filter(|title| !title.is_empty())
 }

@@ -63,7 +63,7 @@ impl<'a> Painter<'a> {
         self.group(tree.root(), Around { named: None, clip: None, opacity: 1.0 })
     }
     /// The grid, and what one should know.
-    pub fn done(self) -> Result<(Canvas, Vec<String>), String> {
+    pub fn done(self) -> (Canvas, Vec<String>) {
         let mut remarks = Vec::new();
         let undrawn = |layer: Layer| {
             let all = self.names.shapes.iter().filter(move |(_, named)| named.layer == layer);
@@ -91,7 +91,7 @@ impl<'a> Painter<'a> {
         if self.masks > 0 {
             remarks.push(format!("{} groups have masks, which are not applied", self.masks));
         }
-        Ok((self.canvas, remarks))
+        (self.canvas, remarks)
     }
     fn group(&mut self, group: &Group, around: Around<'_>) -> Result<(), String> {
         let named = self.names.shapes.get(group.id()).or(around.named);
@@ -109,9 +109,8 @@ impl<'a> Painter<'a> {
             match node {
                 Node::Group(group) => self.group(group, inner)?,
                 Node::Path(path) if path.is_visible() => self.path(path, inner)?,
-                Node::Path(_) => {}
-                // Both are counted by their elements.
-                Node::Image(_) | Node::Text(_) => {}
+                // Images and text are counted by their elements.
+                Node::Path(_) | Node::Image(_) | Node::Text(_) => {}
             }
         }
         Ok(())
