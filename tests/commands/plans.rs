@@ -51,7 +51,7 @@ fn the_same_rooms_have_the_same_bottleneck_in_each_format() {
         feature("exit", "LineString", json!([[11.5, 0.2], [11.5, 7.8]])),
     ];
     let features = json!({ "type": "FeatureCollection", "features": features }).to_string();
-    let svg = "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"120mm\" height=\"80mm\" viewBox=\"0 0 12 8\"><g id=\"walls\" stroke=\"#000\" stroke-width=\"0.2\">\
+    let svg = "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"124mm\" height=\"84mm\" viewBox=\"-0.2 -0.2 12.4 8.4\"><g id=\"walls\" stroke=\"#000\" stroke-width=\"0.2\">\
          <path d=\"M -0.1 -0.1 H 12.1 V 8.1 H -0.1 Z\" fill=\"none\"/><path d=\"M 6.1 0 V 3.8 M 6.1 5 V 8\"/></g>\
          <path d=\"M 11.5 0.2 V 7.8\" stroke=\"red\" stroke-width=\"0.04\" id=\"exit\"><title>the way out</title></path></svg>";
     let line =
@@ -74,9 +74,11 @@ fn the_same_rooms_have_the_same_bottleneck_in_each_format() {
         "0\nSECTION\n2\nHEADER\n9\n$INSUNITS\n70\n6\n0\nENDSEC\n0\nSECTION\n2\nENTITIES\n{walls}{exit}0\nENDSEC\n0\nEOF\n"
     );
     let crowd = ["--people", "40", "--start", "0.1,0.1,5.9,7.9"];
-    for (name, plan, more) in
-        [("a.geojson", features.as_str(), &[][..]), ("a.svg", svg, &["--scale", "1:100"]), ("a.dxf", &dxf, &[])]
-    {
+    for (name, plan, more) in [
+        ("a.geojson", features.as_str(), &[][..]),
+        ("a.svg", svg, &["--scale", "1:100", "--origin", "0.2,0.2"]),
+        ("a.dxf", &dxf, &[]),
+    ] {
         let report = report(name, plan, &[&crowd[..], more].concat());
         let [x, y, width] = named(&report);
         assert!((x - 6.1).hypot(y - 3.6) < 0.5 && (width - 1.2).abs() < 0.1, "{name}: {x} {y}, {width} m wide");

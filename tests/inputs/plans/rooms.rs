@@ -1,12 +1,12 @@
-//! `scenes/two_rooms.wkt` in each format. Drawings lie on a grid of 0.02 m: a wall on it is within half a pixel of where it is drawn, a line one pixel wide
-//! takes half a pixel more of the floor, and the ends of a line are cut by as much.
+//! `scenes/two_rooms.wkt` in each format. Drawings lie on a grid of 0.02 m: a wall on it is within half a pixel of where it is drawn, corners are
+//! cut by as much, and so are the ends of exits.
 
 use glam::DVec2;
 use motes::formats::floor_plan::{PIXEL, Scale};
 
 use super::{are_same, read, two_rooms};
 
-/// Half a pixel of the grid and half of a line, along both axes.
+/// Half a pixel of the grid and half of one at corners and ends, along both axes.
 const TOLERANCE: f64 = std::f64::consts::SQRT_2 * PIXEL;
 
 /// The two rooms in metres, drawn by the walls, whose corner is at 0.2 0.2 of the drawing.
@@ -84,11 +84,12 @@ fn two_rooms_are_the_same_in_each_format() {
         ("strokes", moved(STROKES, Some(Scale::Unit(1.0)), 0.2)),
         ("paper", moved(PAPER, Some(Scale::Paper(100.0)), 0.2)),
         ("names", moved(NAMED, Some(Scale::Unit(0.01)), 0.0)),
-        ("DXF", moved(&dxf(), None, 0.0)),
         ("features of walls", moved(WALLS, None, 0.0)),
     ] {
         are_same(&plan, &wanted, TOLERANCE, what);
     }
+    // Lines without a width that run between pixels take one on either side, and corners are cut by half of one.
+    are_same(&moved(&dxf(), None, 0.0), &wanted, 2.0 * PIXEL, "DXF");
     let exact = moved(FEATURES, None, 0.0);
     assert_eq!(exact.drawn.polygons, wanted.drawn.polygons);
     assert_eq!(exact.names(&[]), ["south"]);
