@@ -290,7 +290,7 @@ mod tests {
         [[low, low], [high, low], [high, high], [low, high]].map(DVec2::from).to_vec()
     }
     fn count(canvas: &Canvas) -> usize {
-        canvas.kinds.iter().filter(|kind| **kind == WALL).count()
+        canvas.kinds.iter().map(|kind| usize::from(*kind == WALL)).sum()
     }
 
     #[test]
@@ -350,7 +350,7 @@ mod tests {
         assert!(over(f64::NAN, None).err().is_some_and(|why| why.contains("no area")));
         assert_eq!(over(70.0, None).map(|canvas| canvas.side).ok(), Some(0.02));
         assert_eq!(over(100.0, None).map(|canvas| canvas.side).ok(), Some(0.04));
-        let mut canvas = over(80.0, None).ok().expect("a grid");
+        let Ok(mut canvas) = over(80.0, None) else { panic!("no grid") };
         // As if shapes had been drawn before.
         canvas.painted = PAINTED - 1000;
         let refused = canvas.fill(&[square(0.0, 100.0)], Rule::NonZero, Ink::Wall, None).err();
