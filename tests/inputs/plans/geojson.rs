@@ -5,23 +5,25 @@ use motes::formats::floor_plan::Scale;
 
 use super::{are_same, read, rooms, two_rooms};
 
+/// Makes degrees of all points.
+fn turn(value: &mut serde_json::Value) {
+    match value {
+        serde_json::Value::Array(pair) if pair.len() == 2 && pair.iter().all(serde_json::Value::is_number) => {
+            let [x, y] = [0, 1].map(|k| pair[k].as_f64().expect("a number"));
+            let at = DVec2::new(13.37 + x / 67_910.22, 52.5 + y / 111_276.83);
+            *value = serde_json::json!([at.x, at.y]);
+        }
+        serde_json::Value::Array(all) => all.iter_mut().for_each(turn),
+        serde_json::Value::Object(all) => all.values_mut().for_each(turn),
+        _ => {}
+    }
+}
+
 /// The two rooms in Berlin, in degrees, by the lengths of a degree at 52.5° on WGS 84 (from the usual series: 111 276.8 m along the meridian, 67 910.2 m along the
 /// parallel).
 #[test]
 fn degrees_become_metres() {
     let mut value: serde_json::Value = serde_json::from_str(rooms::FEATURES).expect("JSON");
-    fn turn(value: &mut serde_json::Value) {
-        match value {
-            serde_json::Value::Array(pair) if pair.len() == 2 && pair.iter().all(serde_json::Value::is_number) => {
-                let [x, y] = [0, 1].map(|k| pair[k].as_f64().expect("a number"));
-                let at = DVec2::new(13.37 + x / 67_910.22, 52.5 + y / 111_276.83);
-                *value = serde_json::json!([at.x, at.y]);
-            }
-            serde_json::Value::Array(all) => all.iter_mut().for_each(turn),
-            serde_json::Value::Object(all) => all.values_mut().for_each(turn),
-            _ => {}
-        }
-    }
     turn(&mut value);
     let plan = read(&value.to_string(), None).expect("a plan");
     // Both lengths are known to a tenth of a metre in 60 000: 0.04 mm of 24 m.
