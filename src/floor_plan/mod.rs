@@ -155,8 +155,8 @@ impl FloorPlan {
         let near = low.floor();
         Err(format!(
             "its coordinates go up to {largest}, where numbers of single precision are {apart} apart, and the most is {fine}, a hundredth of a cell: \
-             subtract a point near it, with origin = [{}, {}, 0] in [plan], or choose larger cells",
-            near.x, near.y
+             subtract a point near it, with origin = [{}, {}, 0] in [plan], or --origin {},{} of `motes crowds`, or choose larger cells",
+            near.x, near.y, near.x, near.y
         ))
     }
 }

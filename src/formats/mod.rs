@@ -12,8 +12,6 @@ mod blocks;
 mod collection;
 mod contents;
 mod convert;
-#[cfg(feature = "images")]
-pub mod floor_picture;
 pub mod floor_plan;
 mod line;
 pub mod links;

@@ -99,9 +99,9 @@ impl Located {
     pub(super) fn shader(&self, place: &Place) -> Result<String, Fault> {
         self.text(place, "a shader", LONGEST_SHADER)
     }
-    /// Its text, for a floor plan.
-    pub(super) fn plan(&self, place: &Place) -> Result<String, Fault> {
-        self.text(place, "a floor plan", LONGEST_PLAN)
+    /// Its bytes, for a floor plan.
+    pub(super) fn plan(&self, place: &Place) -> Result<Vec<u8>, Fault> {
+        self.bytes(place, "a floor plan", LONGEST_PLAN)
     }
     /// Its text, for a mesh.
     pub(super) fn mesh(&self, place: &Place) -> Result<String, Fault> {
@@ -115,21 +115,32 @@ impl Located {
         Ok(text)
     }
     fn text(&self, place: &Place, what: &str, longest: u64) -> Result<String, Fault> {
+        String::from_utf8(self.bytes(place, what, longest)?).map_err(|_| {
+            // As the library says it that reads files.
+            Fault::at(place, format!("cannot read {}: stream did not contain valid UTF-8", self.shown())).in_input()
+        })
+    }
+    fn shown(&self) -> String {
+        match self {
+            Self::Disk { path, .. } => shorten_path(path),
+            Self::Embedded { name, .. } => shorten(name),
+        }
+    }
+    fn bytes(&self, place: &Place, what: &str, longest: u64) -> Result<Vec<u8>, Fault> {
         match self {
             Self::Embedded { name, text } if text.len() as u64 > longest => Err(Fault::at(
                 place,
                 format!("{} has {} bytes, more than the {longest} that {what} may have", shorten(name), text.len()),
             )
             .in_input()),
-            Self::Embedded { text, .. } => Ok(text.clone()),
+            Self::Embedded { text, .. } => Ok(text.clone().into_bytes()),
             Self::Disk { path, .. } => {
-                let bad =
-                    |why: String| Fault::at(place, format!("cannot read {}: {why}", shorten_path(path))).in_input();
+                let bad = |why: String| Fault::at(place, format!("cannot read {}: {why}", self.shown())).in_input();
                 let length = fs::metadata(path).map_err(|e| bad(e.to_string()))?.len();
                 if length > longest {
                     return Err(bad(format!("{length} bytes are more than the {longest} that {what} may have")));
                 }
-                fs::read_to_string(path).map_err(|e| bad(e.to_string()))
+                fs::read(path).map_err(|e| bad(e.to_string()))
             }
         }
     }

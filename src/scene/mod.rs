@@ -305,8 +305,10 @@ fn read(sections: &[(&'static str, Table<'_>)], files: &Files, options: &Options
             report.push(Fault::at(place, why.to_string()));
         }
     }
-    if let Some(plan) = floor_plan {
-        particles = particles.on_floor(plan);
+    let mut of_plan = Vec::new();
+    if let Some(floor) = floor_plan {
+        particles = particles.on_floor(floor.plan);
+        of_plan = floor.remarks;
     }
     for table in all("drain") {
         particles.drains.extend(drain::read(table, bounds.dimensions, &mut out, report));
@@ -358,7 +360,7 @@ fn read(sections: &[(&'static str, Table<'_>)], files: &Files, options: &Options
     out.settings(render::KEYS, &picture);
 
     let remarks = simulation.remark.iter().cloned().chain(fluid::contradictions(sections));
-    let remarks = remarks.chain(render::styles::remark(&picture)).collect();
+    let remarks = remarks.chain(render::styles::remark(&picture)).chain(of_plan).collect();
     let (measures, of_measures): (Vec<_>, Vec<_>) = measures.into_iter().unzip();
     let mut scene = Scene {
         name: String::new(),

@@ -31,13 +31,23 @@ pub(super) const BOX: &[Own] = &[
     own("dimensions", "3; flat: 2", "2 or 3: in 2 all particles stay in one plane"),
 ];
 pub(super) const PLAN: &[Own] = &[
+    own("file", "this or wkt", "a file with the plan, as WKT, GeoJSON, SVG, DXF or PNG"),
     own(
-        "file",
-        "this or wkt",
-        "a file with the plan as well-known text: POLYGONs are the floor, each LINESTRING on it is an exit",
+        "wkt",
+        "this or file",
+        "the plan as well-known text, in the scene itself: POLYGONs are the floor, each LINESTRING on it is an exit",
     ),
-    own("wkt", "this or file", "the same text, in the scene itself"),
-    own("exits", "exit 1, exit 2, …", "the names of exits, in their order in the file"),
+    own("exits", "those of the file; else exit 1, exit 2, …", "the names of exits, in their order in the file"),
+    own(
+        "scale",
+        "that of the file",
+        "the length of a unit of the file, or the scale of a drawing on paper, as in \"1:100\" [length]",
+    ),
+    own(
+        "pixel",
+        "0.02, or more where these are too many",
+        "the side of the pixels on which drawings (SVG, DXF, GeoJSON with walls) are drawn, or of those of a picture (PNG) [length]",
+    ),
 ];
 pub(super) const MOTION: &[Own] = &[
     own("name", "must be given", "the name by which particles and obstacles refer to it"),

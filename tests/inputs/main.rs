@@ -6,6 +6,7 @@ mod golden;
 mod formats;
 mod messages;
 mod misnamed;
+mod plans;
 mod scenes;
 mod shapes;
 mod typed;

@@ -3,16 +3,23 @@
 use std::path::PathBuf;
 
 use clap::Args as ClapArgs;
+use motes::formats::floor_plan::Scale;
 
 use crate::cli::args::{DeviceArgs, ShowArgs, StopArgs, positive};
 
 #[derive(Debug, Clone, ClapArgs)]
 pub struct CrowdsArgs {
-    /// The floor plan: polygons and lines of exits as well-known text (WKT), in metres, or a picture (PNG) in which walls are dark and exits are coloured
+    /// The floor plan: polygons and lines of exits in metres (WKT, GeoJSON), layers of lines (DXF), or a drawing or picture in which walls are dark and exits are coloured (SVG, PNG)
     pub plan: PathBuf,
-    /// The side of a pixel of a picture [m]
+    /// The length of a unit of the plan [m], as in 0.01, or the scale of a drawing on paper, as in 1:100 [default: that of the file]
+    #[arg(long, value_name = "SCALE")]
+    pub scale: Option<Scale>,
+    /// The side of a pixel of a picture, or of those that a drawing is drawn on [m] [default for drawings: 0.02]
     #[arg(long, value_name = "M", value_parser = positive)]
     pub pixel: Option<f64>,
+    /// The point of the plan that is at 0 0 of the report [m] [default: 0,0]
+    #[arg(long, value_name = "X,Y", value_parser = point, allow_hyphen_values = true)]
+    pub origin: Option<[f64; 2]>,
     /// The number of pedestrians
     #[arg(long, value_name = "N", default_value_t = 300, value_parser = clap::value_parser!(u32).range(1..=100_000))]
     pub people: u32,
@@ -46,6 +53,13 @@ pub struct CrowdsArgs {
     pub stop: StopArgs,
     #[command(flatten)]
     pub show: ShowArgs,
+}
+
+/// A point.
+fn point(text: &str) -> Result<[f64; 2], String> {
+    let numbers: Vec<f64> = text.split(',').filter_map(|word| word.trim().parse().ok()).collect();
+    let two = <[f64; 2]>::try_from(numbers).ok().filter(|all| all.iter().all(|x| x.is_finite()));
+    two.filter(|_| text.split(',').count() == 2).ok_or_else(|| "it must be a point, as in 500000,5300000".to_owned())
 }
 
 /// Two corners.

@@ -3,7 +3,7 @@
 use motes::Error;
 use motes::evacuation;
 use motes::floor_plan::{Exit, FloorPlan};
-use motes::formats::{floor_picture, floor_plan};
+use motes::formats::floor_plan::{self, Measure};
 
 use super::args::CrowdsArgs;
 
@@ -33,23 +33,10 @@ pub fn read(args: &CrowdsArgs) -> Result<Read, Error> {
         return Err(bad(format!("{length} bytes are more than the {LONGEST} that a floor plan may have")));
     }
     let bytes = std::fs::read(&args.plan).map_err(|why| bad(why.to_string()))?;
-    let is_picture = bytes.starts_with(b"\x89PNG");
-    let floor_picture::Plan { drawn, landings, remarks } = match args.pixel {
-        Some(side) if is_picture => floor_picture::read(&bytes, side).map_err(bad)?,
-        Some(_) => {
-            return Err(bad("--pixel is the scale of a picture (PNG), and this is none: leave it out".to_owned()));
-        }
-        None if is_picture => {
-            return Err(bad(
-                "a picture has no scale: give the side of a pixel in metres, as in --pixel 0.02".to_owned()
-            ));
-        }
-        None => {
-            let drawn = floor_plan::read(&words(bytes).map_err(bad)?).map_err(bad)?;
-            floor_picture::Plan { drawn, ..Default::default() }
-        }
-    };
-    let count = drawn.exits.len();
+    let read = floor_plan::read(&bytes, &Measure { scale: args.scale, pixel: args.pixel }).map_err(bad)?;
+    let [x, y] = args.origin.unwrap_or_default();
+    let read = read.from_origin(glam::DVec2::new(x, y));
+    let count = read.drawn.exits.len();
     if !(args.exits.is_empty() || args.exits.len() == count) {
         let given = args.exits.len();
         return Err(bad(format!("--exits has {given} names, and the plan has {count} exits: a name for each")));
@@ -57,22 +44,14 @@ pub fn read(args: &CrowdsArgs) -> Result<Read, Error> {
     if count == 0 {
         return Err(bad("the plan has no exit, so that no way leads out: add a LINESTRING on its floor".to_owned()));
     }
-    let named = |(path, number): (_, usize)| Exit {
-        name: args.exits.get(number - 1).cloned().unwrap_or_else(|| format!("exit {number}")),
-        path,
-        reach: REACH,
-    };
-    let exits: Vec<Exit> = drawn.exits.into_iter().zip(1..).map(named).collect();
+    let names = read.names(&args.exits);
+    let floor_plan::Plan { drawn, landings, mut remarks } = read;
+    let exits = drawn.exits.into_iter().zip(names);
+    let exits: Vec<Exit> = exits.map(|(exit, name)| Exit { name, path: exit.path, reach: REACH }).collect();
     let wkt = evacuation::text(&drawn.polygons, &exits);
-    let mut remarks = remarks;
     let plan = FloorPlan::new(&drawn.polygons, exits, args.cell).map_err(bad)?;
     remarks.extend(plan.exits().iter().filter_map(|exit| shut(&plan, exit)));
     Ok(Read { plan, wkt, landings, remarks })
-}
-
-fn words(bytes: Vec<u8>) -> Result<String, String> {
-    String::from_utf8(bytes)
-        .map_err(|_| "it is neither text nor a PNG: a plan is well-known text (WKT) or a picture".to_owned())
 }
 
 /// A remark on an exit that a wall keeps pedestrians from. Before a wall the drive of one of 0.35 m is in balance with the exponential force at

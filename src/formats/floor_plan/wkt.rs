@@ -1,56 +1,18 @@
 //! Floor plans as well-known text (WKT, OGC 06-103r4): POLYGON and MULTIPOLYGON are the floor, with walls as their sides; each LINESTRING is an exit,
 //! and so is each line of a MULTILINESTRING. Several of them stand in a GEOMETRYCOLLECTION, as GIS programs write and read them, or one after
-//! another. A floor is flat: heights (Z) may be given where all are the same. WKT has no names; scenes give names to exits, in their order in the file.
+//! another. A floor is flat: heights (Z) may be given where all are the same. WKT has no names: those of exits are given, in their order in the file.
 
 use std::str::FromStr;
 
+use ::wkt::Wkt;
+use ::wkt::types::{Coord, LineString, Polygon as Text};
 use glam::DVec2;
-use wkt::Wkt;
-use wkt::types::{Coord, LineString, Polygon as Text};
 
+use super::{Drawn, ExitLine};
 use crate::floor_plan::Polygon;
 
 /// How deep a text may be nested: a parser that calls itself has a stack.
 const DEEPEST: usize = 16;
-
-/// What a file has.
-#[derive(Debug, Clone, Default, PartialEq)]
-pub struct Drawn {
-    /// The floor.
-    pub polygons: Vec<Polygon>,
-    /// The lines of each exit.
-    pub exits: Vec<Vec<DVec2>>,
-}
-
-/// The floor outside of an exit.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Landing {
-    /// The middle of the exit \[m\].
-    pub middle: DVec2,
-    /// Out of the building.
-    pub outward: DVec2,
-    /// How far from the middle it reaches \[m\].
-    pub radius: f64,
-}
-
-impl Landing {
-    /// Whether a place is on it \[m\].
-    #[must_use]
-    pub fn holds(&self, x: DVec2) -> bool {
-        let r = x - self.middle;
-        r.length() <= self.radius && r.dot(self.outward) > 0.0
-    }
-}
-
-impl Drawn {
-    /// The same seen from an origin, which is subtracted from all points \[length\].
-    #[must_use]
-    pub fn from_origin(mut self, origin: DVec2) -> Self {
-        let floor = self.polygons.iter_mut().flat_map(|one| std::iter::once(&mut one.outline).chain(&mut one.holes));
-        floor.chain(&mut self.exits).flatten().for_each(|x| *x -= origin);
-        self
-    }
-}
 
 /// Reads a plan: one geometry or several, one after another.
 ///
@@ -122,8 +84,8 @@ impl Reader {
         Ok(())
     }
     fn exit(&mut self, line: &LineString<f64>) -> Result<(), String> {
-        let points = self.points(line)?;
-        self.drawn.exits.push(points);
+        let path = self.points(line)?;
+        self.drawn.exits.push(ExitLine { path, name: None });
         Ok(())
     }
     fn points(&mut self, line: &LineString<f64>) -> Result<Vec<DVec2>, String> {
@@ -186,8 +148,8 @@ mod tests {
             (drawn.polygons.len(), drawn.polygons[0].outline.len(), drawn.polygons[0].holes[0].len()),
             (1, 4, 3)
         );
-        assert_eq!(drawn.exits.iter().map(Vec::len).collect::<Vec<_>>(), [2, 2, 3]);
-        assert_eq!(drawn.exits[0][1], DVec2::new(8.0, 5.0));
+        assert_eq!(drawn.exits.iter().map(|exit| exit.path.len()).collect::<Vec<_>>(), [2, 2, 3]);
+        assert_eq!(drawn.exits[0].path[1], DVec2::new(8.0, 5.0));
         assert_eq!(
             read("MULTIPOLYGON (((0 0, 1 0, 1 1, 0 0)), ((2 0, 3 0, 3 1, 2 0)))").expect("two").polygons.len(),
             2
@@ -203,9 +165,9 @@ mod tests {
             [format!("{floor}\n{exit}\n"), format!("{floor};{exit};"), format!("{exit} {floor}linestring empty")]
         {
             let drawn = read(&text).expect(&text);
-            assert_eq!((drawn.polygons.len(), drawn.exits[0].len()), (1, 2), "{text}");
+            assert_eq!((drawn.polygons.len(), drawn.exits[0].path.len()), (1, 2), "{text}");
         }
-        assert_eq!(read(&format!("{floor}{exit}linestring empty")).expect("three").exits[1].len(), 0);
+        assert_eq!(read(&format!("{floor}{exit}linestring empty")).expect("three").exits[1].path.len(), 0);
     }
 
     /// Heights that are all the same are those of one floor; an origin moves floor, holes and exits alike.
@@ -213,10 +175,11 @@ mod tests {
     fn flat_floors_and_origins() {
         let text =
             "POLYGON Z ((7 5 3, 9 5 3, 9 9 3, 7 5 3), (8 6 3, 8.5 6 3, 8.5 7 3, 8 6 3)) LINESTRING Z (8 8 3, 8 7.5 3)";
-        let drawn = read(text).expect("a plan").from_origin(DVec2::new(7.0, 5.0));
+        let plan = super::super::Plan { drawn: read(text).expect("a plan"), ..Default::default() };
+        let drawn = plan.from_origin(DVec2::new(7.0, 5.0)).drawn;
         let floor = &drawn.polygons[0];
         assert_eq!(
-            [floor.outline[1], floor.holes[0][0], drawn.exits[0][0]],
+            [floor.outline[1], floor.holes[0][0], drawn.exits[0].path[0]],
             [[2.0, 0.0], [1.0, 1.0], [1.0, 3.0]].map(DVec2::from)
         );
     }

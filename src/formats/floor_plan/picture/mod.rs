@@ -4,34 +4,37 @@
 //! lines at their places. Other walls are straightened within 0.4 pixels, which keeps corners where they are.
 
 mod areas;
-mod colors;
+pub mod colors;
 mod outline;
+
+use std::collections::HashMap;
 
 use glam::DVec2;
 
-use super::floor_plan::{Drawn, Landing};
+use super::{Drawn, ExitLine, Landing, Plan};
 use crate::floor_plan::Polygon;
 use areas::{Areas, FLOOR};
+pub use areas::{EXIT, OPEN, WALL};
+pub use colors::Picture;
 
 /// Exits are at least as long as this \[m\].
 const SHORTEST: f64 = 0.4;
 /// Closed rooms without an exit are remarked on from this area on \[m²\]: letters and the insides of walls are smaller.
 const ROOM: f64 = 2.0;
+/// What is narrower is the inside of a wall \[m\].
+const NARROW: f64 = 0.4;
 /// How far outlines are straightened \[pixels\].
 const STRAIGHT: f64 = 0.4;
 
 /// The floor goes on outside of exits up to this distance \[m\].
 const LANDING: f64 = 1.0;
 
-/// A plan that was read from a picture.
-#[derive(Debug, Clone, Default, PartialEq)]
-pub struct Plan {
-    /// The floor and the exits.
-    pub drawn: Drawn,
-    /// The floor outside of exits.
-    pub landings: Vec<Landing>,
-    /// What one should know about it, in sentences.
-    pub remarks: Vec<String>,
+/// A place of an exit, and its name if it has one \[pixels\].
+#[derive(Debug, Clone)]
+pub struct Mark {
+    pub x: usize,
+    pub y: usize,
+    pub name: Option<String>,
 }
 
 /// Reads a plan whose pixels have sides of this length \[m\]. Its floor goes on for a metre outside of each exit.
@@ -39,21 +42,29 @@ pub struct Plan {
 /// # Errors
 /// A sentence, with the place in metres from the lower left corner: what is no PNG, has no exit, has a coloured spot that is too short for an exit, or an
 /// exit whose room is open to the edge of the picture.
+#[cfg(feature = "images")]
 pub fn read(bytes: &[u8], side: f64) -> Result<Plan, String> {
+    plan(colors::read(bytes)?, side, DVec2::ZERO, &[])
+}
+
+/// The plan of a picture whose lower left corner is at a place \[m\]. Exits are in the order of marks, and then from the top.
+pub fn plan(picture: Picture, side: f64, low: DVec2, marks: &[Mark]) -> Result<Plan, String> {
     if !(1e-4..=10.0).contains(&side) {
         return Err(format!("pixels of {side} m are no scale of a floor plan: give between 0.0001 and 10 m"));
     }
-    let picture = colors::read(bytes)?;
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "at most ten thousand pixels")]
     let margin = (LANDING / side).ceil() as u32 + 1;
     let high = f64::from(picture.height + margin);
-    let metres = |x: f64, y: f64| DVec2::new(x - f64::from(margin), high - y) * side;
+    let metres = |x: f64, y: f64| low + DVec2::new(x - f64::from(margin), high - y) * side;
     let picture = picture.within(margin);
     let mut areas = Areas::of(&picture);
     if areas.exits.is_empty() {
-        return Err("the picture has no exit, so that no way leads out: draw a coloured line, such as a green one, across each door that leads out".to_owned());
+        return Err("it has no exit, so that no way leads out: draw a coloured line, such as a green one, across each door that leads out".to_owned());
     }
     let (mut exits, mut landings) = (Vec::new(), Vec::new());
+    let first = first_marks(marks, margin);
+    let mark = |exit: &[(u32, u32)]| exit.iter().filter_map(|at| first.get(at)).min().copied().unwrap_or(marks.len());
+    areas.exits.sort_by_key(|exit| mark(exit));
     for exit in &areas.exits {
         let [a, b] = outline::axis(exit);
         let (middle, length) = (metres(0.5 * (a.x + b.x), 0.5 * (a.y + b.y)), (a.distance(b) + 2.0) * side);
@@ -73,18 +84,18 @@ pub fn read(bytes: &[u8], side: f64) -> Result<Plan, String> {
             let outward = across * across.dot(metres(outside.x, outside.y) - middle).signum();
             landings.push(Landing { middle, outward, radius: LANDING + 0.5 * length });
         }
-        exits.push(vec![metres(a.x, a.y), metres(b.x, b.y)]);
+        let name = marks.get(mark(exit)).and_then(|mark| mark.name.clone());
+        exits.push(ExitLine { path: vec![metres(a.x, a.y), metres(b.x, b.y)], name });
     }
     let remarks = areas
         .rooms_without_exit()
-        .filter(|(_, pixels)| *pixels as f64 * side * side >= ROOM)
-        .map(|((x, y), pixels)| {
-            let at = metres(f64::from(x) + 0.5, f64::from(y) + 0.5);
+        .filter(|room| room.area() * side * side >= ROOM && room.thickness() * side >= NARROW)
+        .map(|room| {
+            let at = metres(f64::from(room.first.0) + 0.5, f64::from(room.first.1) + 0.5);
+            let area = room.area() * side * side;
             format!(
-                "the closed room at {:.2} {:.2}, of {:.1} m², has no way to an exit: it is left out",
-                at.x,
-                at.y,
-                pixels as f64 * side * side
+                "the closed room at {:.2} {:.2}, of {area:.1} m², has no way to an exit: it is left out",
+                at.x, at.y
             )
         })
         .collect();
@@ -103,12 +114,22 @@ pub fn read(bytes: &[u8], side: f64) -> Result<Plan, String> {
     Ok(Plan { drawn: Drawn { polygons: outer.iter().map(polygon).collect(), exits }, landings, remarks })
 }
 
-#[cfg(test)]
+/// The first of the marks at each place, with a margin.
+fn first_marks(marks: &[Mark], margin: u32) -> HashMap<(u32, u32), usize> {
+    let mut first = HashMap::new();
+    for (mark, number) in marks.iter().zip(0..) {
+        let place = [mark.x, mark.y].map(|x| u32::try_from(x).unwrap_or(u32::MAX).saturating_add(margin));
+        first.entry((place[0], place[1])).or_insert(number);
+    }
+    first
+}
+
+#[cfg(all(test, feature = "images"))]
 mod tests {
     use super::*;
 
     /// A picture drawn by a function of the middle of each pixel.
-    pub(super) fn png(width: u32, height: u32, color: impl Fn(f64, f64) -> [u8; 3]) -> Vec<u8> {
+    fn png(width: u32, height: u32, color: impl Fn(f64, f64) -> [u8; 3]) -> Vec<u8> {
         let mut bytes = Vec::new();
         let mut encoder = png::Encoder::new(&mut bytes, width, height);
         encoder.set_color(png::ColorType::Rgb);
@@ -163,7 +184,7 @@ mod tests {
         let round = std::f64::consts::PI * 0.45 * 0.45;
         assert!((area(pillar) / round - 1.0).abs() < 0.03, "{} for {round}", area(pillar));
         assert!(pillar.iter().all(|x| (x.distance(DVec2::new(2.5, 2.5)) - 0.45).abs() < 0.04), "{pillar:?}");
-        let [exit] = &drawn.exits[..] else { panic!("{:?}", drawn.exits) };
+        let [ExitLine { path: exit, .. }] = &drawn.exits[..] else { panic!("{:?}", drawn.exits) };
         let ends = [DVec2::new(5.4, 1.95), DVec2::new(5.4, 3.05)];
         let away = |at: DVec2| exit.iter().map(|x| x.distance(at)).fold(f64::INFINITY, f64::min);
         assert!(exit.len() == 2 && ends.iter().all(|end| away(*end) < 0.03), "{exit:?}");
@@ -191,7 +212,7 @@ mod tests {
             let most = (cosine * x + sine * y).abs().max((cosine * y - sine * x).abs());
             assert!((most - 3.0).abs() < 0.1, "{x} {y}: {most}");
         }
-        let along = drawn.exits[0][1] - drawn.exits[0][0];
+        let along = drawn.exits[0].path[1] - drawn.exits[0].path[0];
         assert!((along.length() - 2.3).abs() < 0.15 && (along.y / along.x).abs() - sine / cosine < 0.05, "{along}");
     }
     #[test]

@@ -1,10 +1,12 @@
 //! What the pixels of a plan are.
 
+#[cfg(feature = "images")]
 use std::io::Cursor;
 
 use super::areas::{EXIT, OPEN, WALL};
 
 /// Pixels of a plan, at most: eight thousand each way.
+#[cfg(feature = "images")]
 const MOST: u64 = 64 << 20;
 /// Coloured is what has this much more of one colour than of another, of 255.
 const COLORED: u8 = 90;
@@ -16,22 +18,25 @@ pub struct Picture {
     pub width: u32,
     pub height: u32,
     pub kinds: Vec<u8>,
+    /// The kind of what is around it.
+    pub around: u8,
 }
 
 impl Picture {
-    /// The same with a margin of paper on all sides \[pixels\].
+    /// The same with a margin on all sides \[pixels\].
     pub fn within(self, margin: u32) -> Self {
         let (width, height) = (self.width + 2 * margin, self.height + 2 * margin);
-        let mut kinds = vec![OPEN; width as usize * height as usize];
+        let mut kinds = vec![self.around; width as usize * height as usize];
         for (row, y) in self.kinds.chunks_exact(self.width as usize).zip(margin as usize..) {
             let start = y * width as usize + margin as usize;
             kinds[start..start + row.len()].copy_from_slice(row);
         }
-        Self { width, height, kinds }
+        Self { width, height, kinds, around: self.around }
     }
 }
 
 /// Reads a PNG.
+#[cfg(feature = "images")]
 pub fn read(bytes: &[u8]) -> Result<Picture, String> {
     let refused = |why: &dyn std::fmt::Display| format!("it is no PNG, or damaged ({why})");
     let mut decoder = png::Decoder::new(Cursor::new(bytes));
@@ -53,11 +58,11 @@ pub fn read(bytes: &[u8]) -> Result<Picture, String> {
         png::ColorType::Rgba => samples.chunks_exact(4).map(|x| kind([x[0], x[1], x[2]], x[3])).collect(),
         png::ColorType::Indexed => return Err(refused(&"its palette is missing")),
     };
-    Ok(Picture { width, height, kinds })
+    Ok(Picture { width, height, kinds, around: OPEN })
 }
 
 /// The kind of a pixel on white paper.
-fn kind(rgb: [u8; 3], alpha: u8) -> u8 {
+pub fn kind(rgb: [u8; 3], alpha: u8) -> u8 {
     let on_white = |x: u8| 255 - u32::from(255 - x) * u32::from(alpha) / 255;
     let rgb = rgb.map(on_white);
     let (most, least) = (rgb.iter().max().copied().unwrap_or(0), rgb.iter().min().copied().unwrap_or(0));

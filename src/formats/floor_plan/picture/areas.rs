@@ -16,12 +16,26 @@ const NONE: u32 = u32::MAX;
 
 /// Areas of open pixels that hang together by their sides.
 #[derive(Debug, Clone, Copy)]
-struct Room {
-    first: (u32, u32),
+pub struct Room {
+    /// One of its pixels.
+    pub first: (u32, u32),
     pixels: usize,
+    /// Sides of its pixels to others.
+    edges: usize,
     /// Whether it reaches the edge of the picture.
     is_outside: bool,
     has_exit: bool,
+}
+
+impl Room {
+    /// Its area \[pixels\].
+    pub fn area(&self) -> f64 {
+        self.pixels as f64
+    }
+    /// Twice its area over the length of its outline: half of the side of a square, the width of what is long and narrow \[pixels\].
+    pub fn thickness(&self) -> f64 {
+        2.0 * self.pixels as f64 / self.edges as f64
+    }
 }
 
 /// The areas of a plan.
@@ -56,7 +70,13 @@ impl Areas {
                     at.is_multiple_of(width) || at % width == width - 1 || *at < width || at + width >= kinds.len()
                 };
                 let is_outside = pixels.iter().any(edge);
-                rooms.push(Room { first: place(start, width), pixels: pixels.len(), is_outside, has_exit: false });
+                let around = |at: &usize| {
+                    let within = sides(width, height, at % width, at / width);
+                    4 - within.filter(|next| label[*next] == number).count()
+                };
+                let edges = pixels.iter().map(around).sum();
+                let first = place(start, width);
+                rooms.push(Room { first, pixels: pixels.len(), edges, is_outside, has_exit: false });
             }
         }
         let mut areas = Self { width, height, mask: Vec::new(), exits, label, rooms };
@@ -81,10 +101,9 @@ impl Areas {
     pub fn is_inside(&self, exit: &[(u32, u32)]) -> bool {
         self.beside(exit).into_iter().any(|room| !self.rooms[room].is_outside)
     }
-    /// A pixel and the number of pixels of each closed room without an exit.
-    pub fn rooms_without_exit(&self) -> impl Iterator<Item = ((u32, u32), usize)> + '_ {
-        let rooms = self.rooms.iter().filter(|room| !room.is_outside && !room.has_exit);
-        rooms.map(|room| (room.first, room.pixels))
+    /// The closed rooms without an exit.
+    pub fn rooms_without_exit(&self) -> impl Iterator<Item = &Room> {
+        self.rooms.iter().filter(|room| !room.is_outside && !room.has_exit)
     }
     /// Adds to the floor what lies outside of exits up to a distance \[pixels\]: no wall stands right behind an exit, which would push pedestrians back.
     pub fn land(&mut self, distance: f64) {
