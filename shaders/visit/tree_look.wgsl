@@ -2,8 +2,8 @@
 // go into one list, leaves go into another.
 const WORKGROUP: u32 = 8u;
 // Entries of the lists that are evaluated together, and room for what a look at eight nodes adds. Powers of two: they are rings.
-const FAR: u32 = 128u;
-const NEAR: u32 = 64u;
+const FAR: u32 = 256u;
+const NEAR: u32 = 128u;
 
 // First the far groups, then the leaves.
 var<workgroup> list: array<u32, 2u * FAR + 2u * NEAR>;
@@ -24,7 +24,14 @@ fn begun() -> Search { return Search(vec2u(), 1u, 0u, highest(), all_leaves() > 
 fn stands(s: Search) -> vec3u { return vec3u(select(0u, s.node, s.more), s.waits); }
 fn resumed(at: vec3u) -> Search { return Search(at.yz, at.x, firstLeadingBit(at.x), 3u, at.x > 0u, vec2u(), 0u); }
 
-fn look(search: ptr<function, Search>, here: Place, own: u32, place: u32) {
+// Whether there is a node to look at, and room in the lists for what is below it.
+fn goes_on(s: Search, met: vec2u) -> bool {
+    return s.more && s.listed.x - met.x < FAR && s.listed.y - met.y < NEAR && s.spent <= MOST;
+}
+
+// Looks at the nodes below one. Where a node is doubtful targets have to be asked: without `asks` nothing is done then, and the
+// answer is true. An adapter that runs lanes as vectors takes every way of every branch, and only a loop that is not entered costs nothing.
+fn look(search: ptr<function, Search>, here: Place, own: u32, place: u32, asks: bool) -> bool {
     var s = *search;
     let lower = (1u << place) - 1u;
     let below = s.depth + s.levels;
@@ -44,10 +51,12 @@ fn look(search: ptr<function, Search>, here: Place, own: u32, place: u32) {
     var open_n = reaches_box(node_n, here);
     let ask_m = open_m && also && is_doubtful(node_m, here);
     let ask_n = open_n && real && !holds && is_doubtful(node_n, here);
-    if subgroupAny(ask_m || ask_n) {
+    let doubtful = subgroupAny(ask_m || ask_n);
+    if asks {
         open_m = open_m && (!ask_m || reaches_target(node_m, here));
         open_n = open_n && (!ask_n || reaches_target(node_n, here));
-        s.spent += 2u * GROUP;
+        // The first look, which changed nothing, had its iterations, too.
+        s.spent += 2u * GROUP + 16u;
     }
     let wide = also && !open_m;
     let above = subgroupBallot(wide).x;
@@ -62,7 +71,7 @@ fn look(search: ptr<function, Search>, here: Place, own: u32, place: u32) {
     let rest = subgroupBallot(others).x;
     let at_far = (s.listed.x + countOneBits(fars & lower)) % (2u * FAR);
     let at_near = 2u * FAR + (s.listed.y + countOneBits(rest & lower)) % (2u * NEAR);
-    if far || (others && leaf) { list[select(at_near, at_far, far)] = select(n, m, wide); }
+    if (asks || !doubtful) && (far || (others && leaf)) { list[select(at_near, at_far, far)] = select(n, m, wide); }
     s.listed.x += countOneBits(fars);
     s.listed.y += select(0u, countOneBits(rest), leaf);
     let open = select(rest << select(0u, 1u << s.levels, s.levels < 3u), 0u, leaf);
@@ -83,5 +92,6 @@ fn look(search: ptr<function, Search>, here: Place, own: u32, place: u32) {
     s.levels = 3u;
     // Loops with nothing to do take an iteration each to detect that.
     s.spent += 4u;
-    *search = s;
+    if asks || !doubtful { *search = s; }
+    return doubtful;
 }

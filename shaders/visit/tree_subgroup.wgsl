@@ -38,9 +38,12 @@ fn walk(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: ve
     var met = vec2u();
     loop {
         // Visits nodes until a list is long, or until no node is left.
-        while search.more && search.listed.x - met.x < FAR
-            && search.listed.y - met.y < NEAR && search.spent <= MOST {
-            look(&search, here, own, place);
+        var doubtful = false;
+        while goes_on(search, met) {
+            while goes_on(search, met) && !doubtful { doubtful = look(&search, here, own, place, false); }
+            // Targets are asked in an iteration of the outer loop, of which there are few.
+            if doubtful { look(&search, here, own, place, true); }
+            doubtful = false;
         }
         workgroupBarrier();
         // Whole eights are evaluated, and at the end what is left, one by one: the very last leaf may not be full.
@@ -80,7 +83,7 @@ fn walk(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: ve
         merge(&sum_b, part_b);
         merge(&sum_c, part_c);
         merge(&sum_d, part_d);
-        search.spent += 6u;
+        search.spent += 12u;
         workgroupBarrier();
         if ends { break; }
     }

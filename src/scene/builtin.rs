@@ -66,5 +66,6 @@ pub const SCENES: &[Builtin] = scenes![
     "hopper",
     "column_collapse",
     "drum",
+    "sandcastle",
     "room",
 ];

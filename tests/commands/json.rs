@@ -150,6 +150,7 @@ fn scenes_scale_by_one_number() {
         "hopper",
         "column_collapse",
         "drum",
+        "sandcastle",
         "room",
         "stiff",
         "spring_chain",

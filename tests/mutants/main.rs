@@ -139,7 +139,9 @@ fn agree<'a>(stages: impl Iterator<Item = &'a Stage>) {
 
 /// Takes file after file, until there are no more; `whole` asks every stage about every mutant.
 fn work((shared, turn): (&Shared, usize), whole: bool, all: &[File], next: &AtomicUsize, ledger: &Mutex<Ledger<'_>>) {
+    let begun = Instant::now();
     let mut stages = stages::all(shared);
+    println!("{} stages are set up: {:.1} s", stages.len(), begun.elapsed().as_secs_f64());
     if turn == 0 {
         // Stages run on lavapipe, whose subgroups have eight lanes.
         let kernels =
@@ -153,6 +155,7 @@ fn work((shared, turn): (&Shared, usize), whole: bool, all: &[File], next: &Atom
         assert!(grouped(stage, file), "{}: what its mutants change is grouped wrongly", file.name);
     }
     agree(stages.iter().skip(turn).step_by(TURNS));
+    println!("{} stages agree: {:.1} s", stages.len(), begun.elapsed().as_secs_f64());
     stages.iter().for_each(|stage| stage.allow(stages::SHORT));
     while let Some(file) = all.get(next.fetch_add(1, Ordering::Relaxed)) {
         let begun = Instant::now();

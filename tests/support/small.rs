@@ -30,6 +30,7 @@ pub const SMALLER: &[(&str, &[&str])] = &[
     ("pile", FEW_GRAINS.split_at(3).0),
     ("hopper", FEW_GRAINS),
     ("column_collapse", FEW_BEADS),
+    ("sandcastle", FEW_WET),
     ("room", &["particles.0.count=60"]),
     ("drum", &["particles.0.size=[0.03, 0.03, 0.04]", "particles.1.size=[0.03, 0.03, 0.04]"]),
 ];
@@ -40,6 +41,13 @@ const FEW_BEADS: &[&str] = &[
     "particles.1.size=[0.05, 0.06, 0.03]",
     "particles.2.size=[0.05, 0.06, 0.03]",
     "particles.3.size=[0.05, 0.06, 0.03]",
+];
+
+/// Moulds with a few wet grains.
+const FEW_WET: &[&str] = &[
+    "particles.0.size=[0.006, 0.006, 0.01]",
+    "particles.1.size=[0.005, 0.005, 0.008]",
+    "particles.2.size=[0.005, 0.005, 0.008]",
 ];
 
 /// Layers of a few grains.

@@ -40,6 +40,7 @@ fn every_one_loads_and_says_what_to_see() {
         "hopper",
         "column_collapse",
         "drum",
+        "sandcastle",
         "room",
     ];
     assert_eq!(names, [&bodies[..], &tied, &fluids, &others].concat());
