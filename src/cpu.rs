@@ -98,17 +98,21 @@ impl Backend for Cpu {
         Ok(plan.clone())
     }
     fn run(&mut self, program: &Plan, times: u32) -> Result<(), Error> {
-        for _ in 0..times {
-            let mut walk = program.walk();
-            while let Some(next) = walk.next() {
-                match next {
-                    Next::Run(kernel) => kernel.reference.as_ref().map_or(Ok(()), |reference| reference(&self.host))?,
-                    Next::Ask(flag) if self.host.is_set(flag)? => walk.leave(),
-                    Next::Ask(_) => {}
+        let host = &self.host;
+        // Within the pool: kernels of few particles end before another thread would be awake.
+        rayon::scope(|_| {
+            for _ in 0..times {
+                let mut walk = program.walk();
+                while let Some(next) = walk.next() {
+                    match next {
+                        Next::Run(kernel) => kernel.reference.as_ref().map_or(Ok(()), |reference| reference(host))?,
+                        Next::Ask(flag) if host.is_set(flag)? => walk.leave(),
+                        Next::Ask(_) => {}
+                    }
                 }
             }
-        }
-        Ok(())
+            Ok(())
+        })
     }
     fn set_world(&mut self, world: World) -> Result<(), Error> {
         self.host.set_world(world);

@@ -120,6 +120,18 @@ fn is_decimal_comma(body: &str, at: usize) -> bool {
     body.as_bytes().get(at) == Some(&b',') && digit(at.checked_sub(1)) && digit(at.checked_add(1))
 }
 
+/// Drops a value level by level: as a whole it is dropped by calls that nest as deeply as it does, for which stacks have no room.
+fn take_apart(value: DeValue<'_>) {
+    let mut rest = vec![value];
+    while let Some(value) = rest.pop() {
+        match value {
+            DeValue::Array(list) => rest.extend(list.into_iter().map(Spanned::into_inner)),
+            DeValue::Table(table) => rest.extend(table.into_iter().map(|(_, value)| value.into_inner())),
+            _ => {}
+        }
+    }
+}
+
 /// Builds the tree of a text whose part from byte `at` on was parsed.
 struct Planter {
     text: usize,
@@ -151,8 +163,9 @@ impl Planter {
             DeValue::Float(f) => Data::Float(f.as_str().parse().unwrap_or(f64::NAN)),
             DeValue::Boolean(b) => Data::Flag(b),
             DeValue::Datetime(_) => Data::Date,
-            DeValue::Array(_) | DeValue::Table(_) if levels == 0 => {
+            deep @ (DeValue::Array(_) | DeValue::Table(_)) if levels == 0 => {
                 self.too_deep.get_or_insert_with(|| place.clone());
+                take_apart(deep);
                 Data::List(Vec::new())
             }
             DeValue::Array(list) => Data::List(list.into_iter().map(|v| self.node(v, levels - 1)).collect()),

@@ -12,13 +12,16 @@ use crate::error::Error;
 use crate::kernel::{ACCELERATION, Bounds, Host, Reference, World};
 use crate::links::{Corner, Half};
 
+/// Particles that a thread takes at least: fewer are done before another thread is awake.
+const PIECE: usize = 16;
+
 /// Each particle alone.
 pub fn each(rule: impl Fn(&Particle, &World) -> DVec4 + Send + Sync + 'static) -> Reference {
     Arc::new(move |host| {
         let view = View::of(host)?;
         let (bodies, world) = (view.particles(), host.world());
         let mut acceleration = host.write(ACCELERATION)?;
-        acceleration.par_iter_mut().zip(&bodies).for_each(|(a, me)| *a += rule(me, &world));
+        acceleration.par_iter_mut().zip(&bodies).with_min_len(PIECE).for_each(|(a, me)| *a += rule(me, &world));
         Ok(())
     })
 }
@@ -33,7 +36,7 @@ pub fn updating(rule: impl Fn(&Particle, &World, &mut Outcome) + Send + Sync + '
             rule(me, &world, &mut outcome);
             (me.index, outcome)
         };
-        let outcomes: Vec<_> = bodies.par_iter().map(outcome).collect();
+        let outcomes: Vec<_> = bodies.par_iter().with_min_len(PIECE).map(outcome).collect();
         result::write(host, 1.0, None, outcomes)
     })
 }
@@ -107,7 +110,7 @@ fn meeting<S: Default>(
             finish(me, &sum, &world, &mut outcome);
             Some((me.index, outcome))
         };
-        let outcomes: Vec<_> = bodies.par_iter().filter_map(outcome).collect();
+        let outcomes: Vec<_> = bodies.par_iter().with_min_len(PIECE).filter_map(outcome).collect();
         // Each of a pair holds half of its potential energy.
         result::write(host, 0.5, search.as_ref(), outcomes)
     })
@@ -155,7 +158,7 @@ fn linked<S: Default>(
         let (bodies, bounds) = (view.particles(), host.world().bounds);
         let (tied, (gather, finish)) = (Tied::of(host, tables)?, &*rule);
         let mut acceleration = host.write(ACCELERATION)?;
-        acceleration.par_iter_mut().zip(&bodies).for_each(|(a, me)| {
+        acceleration.par_iter_mut().zip(&bodies).with_min_len(PIECE).for_each(|(a, me)| {
             let mut sum = S::default();
             for half in tied.halves(me.index) {
                 let you = &bodies[half.partner];
@@ -181,7 +184,7 @@ pub fn corners(
         }
         let (start, corner) = (host.reading::<u32>(names[0])?, host.reading::<u32>(names[1])?);
         let mut acceleration = host.write(ACCELERATION)?;
-        acceleration.par_iter_mut().zip(&bodies).for_each(|(a, me)| {
+        acceleration.par_iter_mut().zip(&bodies).with_min_len(PIECE).for_each(|(a, me)| {
             let corners = row(&start, &corner, me.index, Corner::WORDS).map(Corner::new);
             let sum: DVec4 = corners.map(|corner| rule(corner.ids.map(|id| &bodies[id]), &corner, &world)).sum();
             *a += sum / me.mass * DVec4::new(1.0, 1.0, 1.0, 1.0 / 3.0);

@@ -177,6 +177,8 @@ fn a_sweep_that_is_stopped_names_the_run_to_go_on_with() {
     let (code, _, words) = motes(&[
         "sweep",
         "plummer",
+        "--scale",
+        "0.01",
         "--backend",
         "cpu",
         "--steps",
