@@ -1,11 +1,7 @@
 //! Gravity of all images of a periodic cube, in a uniform background that makes the mean density nothing (Ewald 1921).
 //!
-//! The field is cut in two: a law between two that ends at half a side, so that the nearest image is all that there is of
-//! it; and the smooth rest, a sum of 126 waves, by the structure factor of all particles. How well waves up
-//! to |k|² = 14 do is a matter of how the law ends: P below was fitted so that the waves left out are the least, in the
-//! mean over the cube, among all polynomials of its degree (`benches/ewald_split.py`; the idea of the best taper: Shamshirgar,
-//! Bagge & Tornberg 2021). The force of a unit mass on another is wrong by 1.5e-4 G M / L² in the mean (root mean square), and
-//! by 4.6e-4 at most.
+//! The field is cut in two, as [`Split`] says: a law between two that ends at half a side, so that the nearest image is all that there is
+//! of it; and the smooth rest, a sum of waves, by the structure factor of all particles.
 //!
 //! Softening is Plummer's, of the law between two, which fades out by ρ² = r² + ε² as it would by r²: waves are those of
 //! points. The potential has the mean nothing over the cube; its part of a particle's own images is there too, so that a
@@ -14,38 +10,27 @@
 use std::f64::consts::PI;
 use std::sync::Arc;
 
-use glam::{DMat3, DVec3, DVec4};
+use glam::{DVec3, DVec4};
 use rayon::prelude::*;
 
+use super::ewald_split::Split;
 use crate::error::Error;
 use crate::kernel::{ACCELERATION, Host, Kernel, POSITION, Pass, Problem, Shader, Side, Source, Threads};
+use crate::visit::Group;
 
-/// P(v) = Σ c vⁿ: (1 − v)^(−1/2) to second order, and beyond that fitted.
-const TAPER: [f64; 9] = [1.0, 0.5, 0.375, 0.296_344, 0.309_035, 0.003_588, 0.434_914, -0.227_071, 0.161_508];
-/// The maximum |k|² of waves, in periods per side.
-const SHELLS: i32 = 14;
 /// Blocks into which particles are cut for a structure factor: enough to keep a device busy, and few to add.
 const BLOCKS: u32 = 512;
 /// Particles in a block: no fewer than are worth it, and no more than a loop may take.
 const BLOCK: std::ops::RangeInclusive<u32> = 32..=32_768;
 
-/// P, P′, P″ and P‴.
-fn taper(v: f64) -> [f64; 4] {
-    let mut at = [0.0; 4];
-    for c in TAPER.iter().rev() {
-        at = [at[0] * v + c, at[1] * v + at[0], at[2] * v + at[1], at[3] * v + at[2]];
-    }
-    [at[0], at[1], 2.0 * at[2], 6.0 * at[3]]
-}
-
 /// h(s) = s^(−1/2) − (2 / L) P(1 − (2 / L)² s) and its first three derivatives, with s = r² + ε²; 0 from half a side on.
-fn faded(s: f64, frequency: f64) -> [f64; 4] {
+fn faded(split: &Split, s: f64, frequency: f64) -> [f64; 4] {
     let rate = 2.0 * frequency;
     let v = 1.0 - s * rate * rate;
     if v <= 0.0 {
         return [0.0; 4];
     }
-    let (p, newton) = (taper(v), [1.0, -0.5, 0.75, -1.875]);
+    let (p, newton) = (split.taper(v), [1.0, -0.5, 0.75, -1.875]);
     std::array::from_fn(|n| {
         let n_th = i32::try_from(n).unwrap_or(0);
         let sign = if n % 2 == 0 { 1.0 } else { -1.0 };
@@ -54,51 +39,19 @@ fn faded(s: f64, frequency: f64) -> [f64; 4] {
 }
 
 /// The law between two.
-pub fn pair(gm: f64, softening: f64, r: DVec3, frequency: f64) -> DVec4 {
-    let [value, slope, ..] = faded(r.length_squared() + softening * softening, frequency);
+pub fn pair(split: &Split, gm: f64, softening: f64, r: DVec3, frequency: f64) -> DVec4 {
+    let [value, slope, ..] = faded(split, r.length_squared() + softening * softening, frequency);
     gm * (-2.0 * slope * r).extend(-value)
 }
 
 /// The same for a far group, by its mass and second moments about its centre.
-pub fn group((g, mass, q): (f64, f64, DMat3), softening: f64, r: DVec3, frequency: f64) -> DVec4 {
-    let [value, first, second, third] = faded(r.length_squared() + softening * softening, frequency);
+pub fn group(split: &Split, g: f64, you: &Group, softening: f64, r: DVec3, frequency: f64) -> DVec4 {
+    let [value, first, second, third] = faded(split, r.length_squared() + softening * softening, frequency);
+    let (mass, q) = (you.mass, you.moments);
     let (trace, qr) = (q.x_axis.x + q.y_axis.y + q.z_axis.z, q * r);
     let along = 2.0 * r.dot(qr);
     let a = -2.0 * ((mass * first + trace * second + along * third) * r + 2.0 * second * qr);
     g * a.extend(-(mass * value + trace * first + along * second))
-}
-
-/// ∫ f from 0 to 1, by Simpson's rule: f is as smooth as its polynomial, and 2048 parts leave 1e-11.
-fn integral(f: impl Fn(f64) -> f64) -> f64 {
-    let parts = 2048;
-    let weight = |i: i32| if i == 0 || i == parts { 1.0 } else { f64::from(2 + 2 * (i % 2)) };
-    (0..=parts).map(|i| weight(i) * f(f64::from(i) / f64::from(parts))).sum::<f64>() / f64::from(3 * parts)
-}
-
-/// The waves, with how much of each there is: k in turns per side, of k and −k one; the mean of the faded law, which the
-/// background takes away, as the first.
-pub fn waves() -> Vec<DVec4> {
-    // t P(1 − t²) is the part of the mass within t half sides that is smeared out, and its derivative twice the taper's window.
-    let smeared = |t: f64| t * taper(1.0 - t * t)[0];
-    let amount = |square: i32| {
-        let k = PI * f64::from(square).sqrt();
-        let window = smeared(1.0) * k.cos() + k * integral(|t| smeared(t) * (k * t).sin());
-        2.0 * window / (PI * f64::from(square))
-    };
-    let shells: Vec<f64> = (0..=SHELLS).map(|square| if square > 0 { amount(square) } else { 0.0 }).collect();
-    let mean = PI * integral(|t| t * (1.0 - smeared(t)));
-    let mut all = vec![DVec4::new(0.0, 0.0, 0.0, -mean)];
-    let most = -3..=3;
-    for (x, y, z) in
-        most.clone().flat_map(|x| most.clone().map(move |y| (x, y))).flat_map(|(x, y)| (-3..=3).map(move |z| (x, y, z)))
-    {
-        let square = x * x + y * y + z * z;
-        if (x, y, z) > (0, 0, 0) && square <= SHELLS {
-            let k = DVec3::new(f64::from(x), f64::from(y), f64::from(z));
-            all.push(k.extend(shells[usize::try_from(square).unwrap_or(0)]));
-        }
-    }
-    all
 }
 
 /// Whether there is an Ewald sum in such a box.
@@ -137,12 +90,13 @@ const WIDEST: f64 = 0.125;
 /// # Errors
 /// When a shader does not compile.
 pub fn kernels(
+    split: &Split,
     g: f64,
     world: &[Source],
     [wave, structure, sum, images]: [Source; 4],
     problem: &Problem,
 ) -> Result<[Kernel; 2], Error> {
-    let waves = Arc::new(waves());
+    let waves = Arc::new(split.waves());
     let count = problem.capacity;
     let number = u32::try_from(waves.len()).unwrap_or(u32::MAX);
     let block = count.div_ceil(BLOCKS).clamp(*BLOCK.start(), *BLOCK.end());
@@ -169,7 +123,7 @@ pub fn kernels(
         ("structure".into(), 2 * waves.len() as u64),
         ("structure_parts".into(), u64::from(blocks) * waves.len() as u64),
     ];
-    let alone = 2.0 * taper(1.0)[0];
+    let alone = 2.0 * split.taper(1.0)[0];
     let factor = waves.clone();
     let structure = Kernel {
         name: String::new(),

@@ -1,12 +1,14 @@
 //! Newton's law of gravity, softened.
 
 use std::borrow::Cow;
+use std::sync::Arc;
 
 use glam::{DVec3, DVec4};
 
+use super::ewald_split::{FITTED, LEAST, Split};
 use super::{Component, Law, Over, Problem, Properties, Stage, evaluate, ewald, numbered, params};
 use crate::error::Error;
-use crate::kernel::{Plan, Side, Source, World};
+use crate::kernel::{Plan, Scalar, Side, Source, World};
 use crate::settings::{Key, Kind, Settings, Value};
 use crate::tree::Opening;
 use crate::visit::{Particle, Group};
@@ -20,6 +22,7 @@ pub const KEYS: &[Key] = &[
     Key::new("theta", Kind::Fraction, Value::Number(0.5), "the opening angle θ of the tree, at most 1: a group of size l is approximated beyond the distance l / θ"),
     Key::new("alpha", Kind::NotNegative, Value::Number(0.0), "above 0: the relative opening criterion (GADGET): a group of mass M and size l is approximated where G M l² / d⁴ is below α times the last acceleration"),
     Key::new("images", Kind::Choice(&["nearest", "ewald"]), Value::Text(Cow::Borrowed("nearest")), "in a periodic box: nearest images only, or Ewald sums over all images on a neutralizing background, in a cube (Ewald 1921)"),
+    Key::new("accuracy", Kind::Positive, Value::Number(FITTED), "with images = \"ewald\": the error of the force of a mass M, root mean square over the cube, 1e-10 or more; rounding on the device adds some 1e-6 [G M / side²]"),
     Key::new("multipoles", Kind::Choice(&["quadrupole", "monopole"]), Value::Text(Cow::Borrowed("quadrupole")), "the multipole order of far groups"),
 ];
 
@@ -50,6 +53,10 @@ impl Gravity {
     fn all_images(&self) -> bool {
         self.0.text("images") == "ewald"
     }
+    /// The law between two and the waves of all images.
+    fn split(&self) -> Split {
+        Split::new(self.0.number("accuracy"))
+    }
     /// Whether there is such a law in the box of a problem.
     fn fits(&self, problem: &Problem) -> Result<(), Error> {
         if self.all_images() {
@@ -57,6 +64,12 @@ impl Gravity {
                 return Err(Error::Scene(
                     "gravity with images = \"ewald\" is softened by kernel = \"plummer\" alone: leave out \"spline\"".to_owned(),
                 ));
+            }
+            let accuracy = self.0.number("accuracy");
+            if accuracy < LEAST {
+                return Err(Error::Scene(format!(
+                    "gravity with images = \"ewald\" has an accuracy of {accuracy:e}: sums in double precision reach {LEAST:e}; give that or more"
+                )));
             }
             return ewald::fits(problem, self.0.number("softening"));
         }
@@ -77,23 +90,33 @@ impl Gravity {
 
 impl Component for Gravity {
     fn laws(&self) -> Vec<Law> {
-        let values = params(&self.0, &["g", "softening"]);
+        let mut values = params(&self.0, &["g", "softening"]);
         let (g, softening) = (self.0.number("g"), self.0.number("softening"));
         let quadrupole = self.0.text("multipoles") == "quadrupole";
         vec![if self.all_images() {
-            let files = (
-                crate::shader!("interactions/gravity_ewald.wgsl"),
-                self.distant(crate::shader!("interactions/gravity_ewald_distant.wgsl")),
-            );
+            let split = Arc::new(self.split());
+            let beyond = Arc::clone(&split);
+            let fitted = self.0.number("accuracy") >= FITTED;
+            let files = if fitted {
+                let distant = self.distant(crate::shader!("interactions/gravity_ewald_distant.wgsl"));
+                (crate::shader!("interactions/gravity_ewald.wgsl"), distant)
+            } else {
+                let distant = self.distant(crate::shader!("interactions/gravity_ewald_accurate_distant.wgsl"));
+                (crate::shader!("interactions/gravity_ewald_accurate.wgsl"), distant)
+            };
+            if !fitted {
+                let vectors = split.vectors().into_iter().enumerate();
+                values.extend(vectors.map(|(n, four)| (format!("taper_{n}"), Scalar::Vector4(four))));
+            }
             let frequency = |world: &World| world.bounds.frequency().x;
             let rule = move |_: &Particle, you: &Particle, r, world: &World| {
-                ewald::pair(g * you.mass, softening, r, frequency(world))
+                ewald::pair(&split, g * you.mass, softening, r, frequency(world))
             };
             let far = move |_: &Particle, you: &Group, r, world: &World| {
                 if quadrupole {
-                    ewald::group((g, you.mass, you.moments), softening, r, frequency(world))
+                    ewald::group(&beyond, g, you, softening, r, frequency(world))
                 } else {
-                    ewald::pair(g * you.mass, softening, r, frequency(world))
+                    ewald::pair(&beyond, g * you.mass, softening, r, frequency(world))
                 }
             };
             Law::attracting("gravity_ewald", self.over(0.0), files, values, rule, far).of_all_images()
@@ -130,7 +153,7 @@ impl Component for Gravity {
                 crate::shader!("interactions/gravity_images.wgsl"),
             ];
             let world = [crate::shader!("world.wgsl"), crate::shader!("fields.wgsl"), crate::shader!("law/circle.wgsl")];
-            let [structure, images] = ewald::kernels(self.0.number("g"), &world, sources, problem)?;
+            let [structure, images] = ewald::kernels(&self.split(), self.0.number("g"), &world, sources, problem)?;
             plan.push(&numbered("gravity structure", earlier), || Ok(structure))?;
             plan.push(&numbered("gravity images", earlier), || Ok(images))?;
         }

@@ -2,6 +2,7 @@
 //! line in the register below.
 
 mod ewald;
+mod ewald_split;
 mod pair_potential;
 
 use crate::component::keys::{EACH, SEE_NEAR, SEED, SKIN, is_nearer, over, params, seed};

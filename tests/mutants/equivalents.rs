@@ -86,6 +86,8 @@ pub const EQUIVALENT: &[Equivalent] = &[
     same("gravity_structure_sum.wgsl", "override BLOCKS: u32 = 1u;", "1u", "2u", ALWAYS_SET),
     same("gravity_ewald_distant.wgsl", "if v > 0.0 {", ">", ">=", EDGE),
     same("gravity_ewald.wgsl", "let mass = select(", ">", ">=", "at the edge both are nothing"),
+    same("gravity_ewald_accurate_distant.wgsl", "if v > 0.0 {", ">", ">=", EDGE),
+    same("gravity_ewald_accurate.wgsl", "let mass = select(", ">", ">=", "at the edge both are nothing"),
     same("corners.wgsl", "if i >= world.count", ">=", ">", NO_LINKS).sometimes(),
     same("tear.wgsl", "if i >= world.count", ">=", ">", NO_LINKS),
     same("tear.wgsl", "override STRAIN: f32 = 0.1;", "0.1", "0.15000000000000002", ALWAYS_SET),

@@ -14,19 +14,23 @@ use crate::support::states::{force, word};
 use crate::support::{Random, Shared};
 
 const SIDE: f64 = 1.75;
+/// By the fitted taper, and by the one for any accuracy.
+const COARSE: f64 = 1e-3;
+const FINE: f64 = 8e-5;
 
 fn cube() -> Bounds {
     let low = DVec3::new(-0.4, 2.5, 0.3);
     Bounds::new(low, low + SIDE, Side::Periodic)
 }
 
-fn gravity(over: &'static str) -> Vec<Box<dyn Component>> {
+fn gravity(over: &'static str, accuracy: f64) -> Vec<Box<dyn Component>> {
     let settings = [
         ("g", Value::Number(1.3)),
         ("softening", Value::Number(0.17)),
         ("over", word(over)),
         ("theta", Value::Number(0.9)),
         ("images", word("ewald")),
+        ("accuracy", Value::Number(accuracy)),
     ];
     vec![force("gravity", &settings)]
 }
@@ -47,16 +51,20 @@ fn spread(device: &Device, count: usize, machine: Machine) -> Simulation<Gpu> {
 pub fn all(shared: &Shared, device: &Device, stages: &mut Vec<Stage>) {
     let machine = Machine::HOST;
     let problem = |machine, count: usize| Problem::new(u32::try_from(count).expect("few"), machine).at(&[], cube());
-    let mut plan = Plan::default();
-    gravity("pairs")[0]
-        .stage(motes::component::Stage::Evaluate { earlier: 0 }, &mut plan, &problem(machine, FEW))
-        .expect("a plan");
-    for kernel in plan.kernels {
-        stages.push(stage(&format!("all images, {}", kernel.name), spread(device, FEW, machine), kernel));
+    for accuracy in [COARSE, FINE] {
+        let mut plan = Plan::default();
+        gravity("pairs", accuracy)[0]
+            .stage(motes::component::Stage::Evaluate { earlier: 0 }, &mut plan, &problem(machine, FEW))
+            .expect("a plan");
+        // The waves are summed by the same kernels, however many they are.
+        for kernel in plan.kernels.into_iter().filter(|kernel| accuracy == COARSE || kernel.name == "gravity_ewald") {
+            let name = format!("all images to {accuracy:e}, {}", kernel.name);
+            stages.push(stage(&name, spread(device, FEW, machine), kernel));
+        }
     }
-    if subgroups_of_eight(shared) {
+    for accuracy in [COARSE, FINE].into_iter().filter(|_| subgroups_of_eight(shared)) {
         let machine = Machine { subgroup: 8, ..machine };
-        let forces = gravity("tree");
+        let forces = gravity("tree", accuracy);
         let mut step = Step::new(&forces, problem(machine, FEW));
         step.evaluate();
         let plan = step.finished().expect("a plan");
@@ -74,6 +82,6 @@ pub fn all(shared: &Shared, device: &Device, stages: &mut Vec<Stage>) {
         let program = gpu.compile(&plan).expect("a good plan");
         gpu.run(&program, 1).expect("a run");
         let walk = plan.kernels.into_iter().find(|kernel| kernel.name == "gravity_ewald").expect("a walk");
-        stages.push(Stage::new("all images, far groups", simulation, walk));
+        stages.push(Stage::new(&format!("all images to {accuracy:e}, far groups"), simulation, walk));
     }
 }

@@ -1,5 +1,6 @@
 //! Gravity of all images: against published numbers, against the exact sum, and by what a periodic world must do.
 
+mod accurate;
 mod exact;
 mod field;
 mod refusals;
@@ -29,6 +30,17 @@ fn gravity(g: f64, softening: f64, over: &'static str) -> Vec<Box<dyn Component>
         ("softening", Value::Number(softening)),
         ("over", word(over)),
         ("images", word("ewald")),
+    ];
+    vec![force("gravity", &settings)]
+}
+
+/// The same to a root mean square error of the force of a unit mass.
+fn accurate(g: f64, accuracy: f64, over: &'static str) -> Vec<Box<dyn Component>> {
+    let settings = [
+        ("g", Value::Number(g)),
+        ("over", word(over)),
+        ("images", word("ewald")),
+        ("accuracy", Value::Number(accuracy)),
     ];
     vec![force("gravity", &settings)]
 }

@@ -3,6 +3,7 @@
 use std::f64::consts::PI;
 
 use glam::{DVec3, DVec4, Vec4};
+use motes::forces::Component;
 use motes::integrators::Step;
 use motes::kernel::{Backend, Machine};
 use motes::lockstep::compare;
@@ -28,8 +29,8 @@ fn lattice(side: f64, number: u8) -> State {
     lattice
 }
 
-const SIDE: f64 = 3.5;
-const G: f64 = 0.8;
+pub const SIDE: f64 = 3.5;
+pub const G: f64 = 0.8;
 
 /// In a lattice no direction is preferred; and the energy of each particle is that of a mass alone in a smaller cube.
 #[test]
@@ -81,7 +82,13 @@ fn a_plane_wave_grows_as_jeans_says() {
     assert!(across.fold(0.0, f64::max) < 1e-9, "it turns");
 }
 
-fn on_device(shared: &Shared, machine: Option<Machine>, count: usize, over: &'static str) -> (State, Vec<DVec4>) {
+/// A cloud by a law on a device, every kernel of which must agree with its reference.
+pub fn on_device(
+    shared: &Shared,
+    machine: Option<Machine>,
+    count: usize,
+    forces: Vec<Box<dyn Component>>,
+) -> (State, Vec<DVec4>) {
     let bounds = cube(SIDE);
     let cloud = scattered(count, &bounds, 4);
     let mut gpu = gpu(shared, count);
@@ -89,7 +96,7 @@ fn on_device(shared: &Shared, machine: Option<Machine>, count: usize, over: &'st
     gpu.pretend(machine);
     let setup = Setup {
         state: cloud.clone(),
-        forces: gravity(G, 0.0, over),
+        forces,
         integrator: integrator("symplectic_euler"),
         dt: 0.01,
         bounds,
@@ -106,7 +113,7 @@ fn on_device(shared: &Shared, machine: Option<Machine>, count: usize, over: &'st
     let verdicts = pollster::block_on(compare(simulation.backend(), &plan, number)).expect("verdicts");
     for v in &verdicts {
         // A single particle is pulled by its own waves, which cancel: what is left is rounding.
-        assert!(if count > 1 { v.good() } else { v.sound() }, "{over}, {count}: {v:?}");
+        assert!(if count > 1 { v.good() } else { v.sound() }, "{count}: {v:?}");
     }
     let got = pollster::block_on(simulation.read(ACCELERATION)).expect("accelerations");
     (cloud, got.into_iter().map(Vec4::as_dvec4).collect())
@@ -118,7 +125,7 @@ fn a_device_sums_as_exactly() {
     for count in [1, 2, 65] {
         let want = exact_sum(&scattered(count, &cube(SIDE), 4), SIDE, G);
         for (name, machine) in machines(&shared) {
-            let (cloud, got) = on_device(&shared, Some(machine), count, "pairs");
+            let (cloud, got) = on_device(&shared, Some(machine), count, gravity(G, 0.0, "pairs"));
             let mass: f64 = cloud.mass().iter().sum();
             for (got, want) in got.iter().zip(&want) {
                 let error = *got - *want;
@@ -131,7 +138,7 @@ fn a_device_sums_as_exactly() {
         }
     }
     // Several particles to a block of the structure factor.
-    on_device(&shared, None, 1500, "pairs");
+    on_device(&shared, None, 1500, gravity(G, 0.0, "pairs"));
 }
 
 /// Far groups as one, on the device and by the reference.
@@ -139,7 +146,7 @@ fn a_device_sums_as_exactly() {
 fn a_tree_sums_as_exactly() {
     let shared = support::device();
     if machines::subgroups_of_eight(&shared) {
-        on_device(&shared, None, 1500, "tree");
+        on_device(&shared, None, 1500, gravity(G, 0.0, "tree"));
     }
 }
 
