@@ -2,8 +2,8 @@
 // go into one list, leaves go into another.
 const WORKGROUP: u32 = 8u;
 // Entries of the lists that are evaluated together, and room for what a look at eight nodes adds. Powers of two: they are rings.
-const FAR: u32 = 256u;
-const NEAR: u32 = 128u;
+const FAR: u32 = 128u;
+const NEAR: u32 = 64u;
 
 // First the far groups, then the leaves.
 var<workgroup> list: array<u32, 2u * FAR + 2u * NEAR>;

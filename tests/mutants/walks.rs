@@ -49,7 +49,7 @@ pub const EQUIVALENT: &[Equivalent] = &[
     same("tree_look", "let node_n =", "1u", "2u", "it only is a place to read from"),
     same(
         "tree_look",
-        "if far || (others && leaf)",
+        "if (asks || !doubtful) && (far ||",
         "&&",
         "||",
         "what is written behind the end of a list is written over",
