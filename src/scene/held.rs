@@ -14,6 +14,9 @@ use super::walk::{self, Table};
 
 pub(super) const OWN: &[&str] = &["fixed", "motion"];
 
+/// All of an entry.
+const ALL: &str = "all";
+
 /// Fixes the particles given by the entry's `fixed`, in addition to those that its shape or its bodies fix already; all of them follow
 /// `motion`, if it is given.
 pub(super) fn read(
@@ -33,7 +36,7 @@ pub(super) fn read(
             &entry.node.place,
             format!("no particle in {} is fixed, so the motion moves nothing", table.name),
         );
-        report.push(fault.label("fix some, as in fixed = [0]"));
+        report.push(fault.label("fix some, as in fixed = [0] or \"all\""));
     }
     let number = names.iter().position(|known| *known == name).and_then(|n| u32::try_from(n).ok()).unwrap_or(0);
     particles.held.iter_mut().for_each(|held| held.by = Hold::Motion(number));
@@ -57,11 +60,17 @@ pub(super) fn motion<'a>(table: &Table<'_>, names: &[&'a str], report: &mut Repo
 
 fn fixed(table: &Table<'_>, particles: &mut State, out: &mut Writer, report: &mut Report) {
     let Some(entry) = table.get("fixed") else { return };
+    let mut known: BTreeSet<u32> = particles.held.iter().map(|held| held.id).collect();
+    if matches!(&entry.node.data, Data::Text(word) if word == ALL) {
+        let ids = 0..u32::try_from(particles.len()).unwrap_or(u32::MAX);
+        particles.held.extend(ids.filter(|id| !known.contains(id)).map(|id| Held { id, by: Hold::Fixed }));
+        out.text("fixed", ALL);
+        return;
+    }
     let Data::List(list) = &entry.node.data else {
-        value::refuse::<()>(&entry.node, "fixed", "a list of whole numbers, as in [0, 7]", report);
+        value::refuse::<()>(&entry.node, "fixed", "\"all\", or a list of whole numbers, as in [0, 7]", report);
         return;
     };
-    let mut known: BTreeSet<u32> = particles.held.iter().map(|held| held.id).collect();
     let mut ids = Vec::new();
     for node in list {
         let Some(id) = value::number(node, "fixed", Kind::Whole, "a list of whole numbers, zero or above", report)

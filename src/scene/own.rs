@@ -72,7 +72,11 @@ pub(super) const PARTICLES: &[Own] = &[
         "written out: [{ position = [1, 0, 0], velocity = [0, 1, 0], mass = 1, size = 0 }]",
     ),
     own("color", "by the palette", "a colour by name, or as \"#ffcc88\""),
-    own("fixed", "none", "fixed particles, which forces do not move: a list of ids, counted from 0 in this entry"),
+    own(
+        "fixed",
+        "none",
+        "fixed particles, which forces do not move: \"all\", or a list of ids, counted from 0 in this entry",
+    ),
     own("motion", "none", "the name of the motion that moves the fixed particles"),
 ];
 pub(super) const EMITTER: &[Own] = &[

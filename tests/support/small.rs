@@ -27,6 +27,7 @@ pub const SMALLER: &[(&str, &[&str])] = &[
     ("salt", &["force.0.range=5"]),
     ("argon", &["particles.0.cells=[3, 3, 3]"]),
     ("vapour", &["particles.0.cells=[3, 3, 3]"]),
+    ("nanowire", THIN_WIRE),
     ("pile", FEW_GRAINS.split_at(3).0),
     ("hopper", FEW_GRAINS),
     ("column_collapse", FEW_BEADS),
@@ -41,6 +42,16 @@ const FEW_BEADS: &[&str] = &[
     "particles.1.size=[0.05, 0.06, 0.03]",
     "particles.2.size=[0.05, 0.06, 0.03]",
     "particles.3.size=[0.05, 0.06, 0.03]",
+];
+
+/// A wire of two cells across.
+const THIN_WIRE: &[&str] = &[
+    "particles.0.cells=[2, 2, 2]",
+    "particles.1.cells=[4, 2, 2]",
+    "particles.2.cells=[4, 2, 2]",
+    "particles.3.cells=[4, 2, 2]",
+    "particles.4.cells=[4, 2, 2]",
+    "particles.5.cells=[2, 2, 2]",
 ];
 
 /// Moulds with a few wet grains.

@@ -52,6 +52,25 @@ motion = \"to and fro\"
     assert_eq!(motion(&again.resolved), motion(&scene.resolved));
 }
 
+/// All of an entry, be some of them fixed already.
+#[test]
+fn all_are_fixed_by_a_word() {
+    let text = format!(
+        "{HEAD}[[motion]]\nname = \"grip\"\nkeys = [{{ time = 1 }}]\n[[particles]]\nbodies = [{{ position = [9, 0, 0] }}]\n\
+         [[particles]]\nbodies = [{{ position = [0, 0, 0] }}, {{ position = [1, 0, 0], fixed = true }}, {{ position = [2, 0, 0] }}]\n\
+         fixed = \"all\"\nmotion = \"grip\"\n"
+    );
+    let scene = load(&text);
+    let mut ids: Vec<u32> = scene.particles.held.iter().map(|held| held.id).collect();
+    ids.sort_unstable();
+    assert_eq!(ids, [1, 2, 3]);
+    assert!(scene.particles.held.iter().all(|held| held.by == Hold::Motion(0)));
+    let again = load(&scene.resolved);
+    assert_eq!(again.particles, scene.particles);
+    let said = faults(&text.replace("\"all\"", "\"some\"")).to_string();
+    assert!(said.contains("`fixed` must be \"all\", or a list of whole numbers"), "{said}");
+}
+
 #[test]
 fn what_is_wrong_with_them() {
     let text = format!(

@@ -16,6 +16,7 @@ mod liquid;
 mod minimum;
 mod nist;
 mod pressure;
+mod wire;
 
 use glam::DVec3;
 use motes::forces::Component;
