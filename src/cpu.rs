@@ -99,9 +99,9 @@ impl Backend for Cpu {
     }
     fn run(&mut self, program: &Plan, times: u32) -> Result<(), Error> {
         let host = &self.host;
-        // Within the pool: kernels of few particles end before another thread would be awake.
-        rayon::scope(|_| {
-            for _ in 0..times {
+        for _ in 0..times {
+            // Within the pool: kernels of few particles end before another thread would be awake.
+            rayon::scope(|_| -> Result<(), Error> {
                 let mut walk = program.walk();
                 while let Some(next) = walk.next() {
                     match next {
@@ -110,9 +110,10 @@ impl Backend for Cpu {
                         Next::Ask(_) => {}
                     }
                 }
-            }
-            Ok(())
-        })
+                Ok(())
+            })?;
+        }
+        Ok(())
     }
     fn set_world(&mut self, world: World) -> Result<(), Error> {
         self.host.set_world(world);

@@ -1,5 +1,5 @@
 // Newton's law in a periodic cube of side L, with a cut-off at half a side (the short-range part): the rest of all images and of the mean
-// density is smooth, and is summed over Fourier modes (Ewald 1921). With ρ² = r² + ε² and v = 1 − (2 ρ / L)², as long as v > 0:
+// density is smooth, and is summed over Fourier modes (Ewald 1921). With ρ² = r² + ε² and v = 1 − (2 r / L)², as long as v > 0:
 // φ = −G m [1 / ρ − (2 / L) P(v)],  a = G m [1 / ρ³ − 2 (2 / L)³ P′(v)] r.
 // P is a polynomial whose degree grows with the accuracy (after Kaiser & Schafer, IEEE Trans. ASSP 28, 105, 1980).
 struct Params {
@@ -36,8 +36,8 @@ fn taper(v: f32) -> vec4f {
 }
 
 fn gather(me: Particle, you: Particle, r: vec3f, sum: ptr<function, Sum>) {
-    let square = dot(r, r) + params.softening * params.softening;
-    let inverse = inverseSqrt(square);
+    let square = dot(r, r);
+    let inverse = inverseSqrt(square + params.softening * params.softening);
     let rate = 2.0 * world.frequency.x;
     let v = 1.0 - square * rate * rate;
     let mass = select(0.0, you.mass, v > 0.0);

@@ -1,13 +1,13 @@
-// A far group by its mass M and second moments Q about the centre of mass, under the faded law: with s = r² + ε² and
-// h(s) = s^(−1/2) − (2 / L) P(v):  φ = −G [M h + tr Q h′ + 2 r·Q r h″],
+// A far group by its mass M and second moments Q about the centre of mass, under the faded law: with derivatives by r² of
+// h = (r² + ε²)^(−1/2) − (2 / L) P(v):  φ = −G [M h + tr Q h′ + 2 r·Q r h″],
 // a = −2 G [(M h′ + tr Q h″ + 2 r·Q r h‴) r + 2 h″ Q r]
 fn distant(me: Particle, you: Group, r: vec3f, sum: ptr<function, Sum>) {
-    let s = dot(r, r) + params.softening * params.softening;
-    let inverse = inverseSqrt(s);
+    let distance2 = dot(r, r);
+    let inverse = inverseSqrt(distance2 + params.softening * params.softening);
     let over = inverse * inverse;
     let rate = 2.0 * world.frequency.x;
     let square = rate * rate;
-    let v = 1.0 - s * square;
+    let v = 1.0 - distance2 * square;
     let p = taper(v);
     let first = inverse * over * -0.5 + rate * square * p.y;
     let second = inverse * over * over * 0.75 - 2.0 * rate * square * square * p.z;

@@ -3,8 +3,8 @@
 //! The field is cut in two, as [`Split`] says: a law between two that ends at half a side, so that the nearest image is all that there is
 //! of it; and the smooth rest, a sum of waves, by the structure factor of all particles.
 //!
-//! Softening is Plummer's, of the law between two, which fades out by ρ² = r² + ε² as it would by r²: waves are those of
-//! points. The potential has the mean nothing over the cube; its part of a particle's own images is there too, so that a
+//! Softening is Plummer's, of the law between two: waves are those of points. The fitted law fades out by ρ² = r² + ε² as it would by r², and
+//! errs by some 50 (ε / L)² G M / L²; those of a given accuracy soften Newton's term alone, which jumps by 24 (ε / L)² G M / L² at half a side. The potential has the mean nothing over the cube; its part of a particle's own images is there too, so that a
 //! mass alone has the energy 1.4186 G m² / L of a lattice.
 
 use std::f64::consts::PI;
@@ -23,10 +23,11 @@ const BLOCKS: u32 = 512;
 /// Particles in a block: no fewer than are worth it, and no more than a loop may take.
 const BLOCK: std::ops::RangeInclusive<u32> = 32..=32_768;
 
-/// h(s) = s^(−1/2) − (2 / L) P(1 − (2 / L)² s) and its first three derivatives, with s = r² + ε²; 0 from half a side on.
-fn faded(split: &Split, s: f64, frequency: f64) -> [f64; 4] {
+/// h = s^(−1/2) − (2 / L) P(1 − (2 / L)² q) and its first three derivatives by r², with s = r² + ε², and q = s or r²; 0 from half a side on.
+fn faded(split: &Split, softening: f64, r: DVec3, frequency: f64) -> [f64; 4] {
     let rate = 2.0 * frequency;
-    let v = 1.0 - s * rate * rate;
+    let s = r.length_squared() + softening * softening;
+    let v = 1.0 - if split.softens { s } else { r.length_squared() } * rate * rate;
     if v <= 0.0 {
         return [0.0; 4];
     }
@@ -40,13 +41,13 @@ fn faded(split: &Split, s: f64, frequency: f64) -> [f64; 4] {
 
 /// The law between two.
 pub fn pair(split: &Split, gm: f64, softening: f64, r: DVec3, frequency: f64) -> DVec4 {
-    let [value, slope, ..] = faded(split, r.length_squared() + softening * softening, frequency);
+    let [value, slope, ..] = faded(split, softening, r, frequency);
     gm * (-2.0 * slope * r).extend(-value)
 }
 
 /// The same for a far group, by its mass and second moments about its centre.
 pub fn group(split: &Split, g: f64, you: &Group, softening: f64, r: DVec3, frequency: f64) -> DVec4 {
-    let [value, first, second, third] = faded(split, r.length_squared() + softening * softening, frequency);
+    let [value, first, second, third] = faded(split, softening, r, frequency);
     let (mass, q) = (you.mass, you.moments);
     let (trace, qr) = (q.x_axis.x + q.y_axis.y + q.z_axis.z, q * r);
     let along = 2.0 * r.dot(qr);

@@ -12,14 +12,16 @@ pub struct Split {
     coefficients: Vec<f64>,
     /// The maximum |k|² of waves, in periods per side.
     shells: i32,
+    /// Whether the law between two fades out by its softened distance.
+    pub softens: bool,
 }
 
 /// The error of the fitted window: the root mean square over the cube of the force of a unit mass on another [G M / L²].
 pub const FITTED: f64 = 1.5e-4;
 /// The least error that sums in f64 reach with room to spare [G M / L²].
 pub const LEAST: f64 = 1e-10;
-/// Coefficients of P on a device, in vectors of four: 28, and what is left out changes forces by 4e-6 G M / L² where 1e-10 is asked for, and by 1e-8 at
-/// 1e-8, below the rounding of single precision.
+/// Coefficients of P on a device, in vectors of four: 28, and what is left out changes forces by 7e-6 G M / L² at most where 1e-10 is asked for, and
+/// by 3e-8 at 1e-8, below the rounding of single precision.
 pub const VECTORS: usize = 7;
 /// Parts of an integral: windows are as smooth as a Gaussian of a sixth of their width, and this leaves 1e-13.
 const PARTS: u32 = 1 << 14;
@@ -34,11 +36,11 @@ impl Split {
     /// the idea of the best taper: Shamshirgar, Bagge & Tornberg 2021). The force of a unit mass is wrong by 4.6e-4 G M / L² at most.
     fn fitted() -> Self {
         let coefficients = vec![1.0, 0.5, 0.375, 0.296_344, 0.309_035, 0.003_588, 0.434_914, -0.227_071, 0.161_508];
-        Self { coefficients, shells: 14 }
+        Self { coefficients, shells: 14, softens: true }
     }
     /// By the window √(1 − t²) I₁(β √(1 − t²)), which is next to the best for a band of waves (Kaiser & Schafer, IEEE Trans. ASSP 28, 105, 1980, one order above theirs, so
     /// that the force vanishes at half a side). Its P is the series of (1 − v)^(−1/2) with its n-th coefficient faded by what is left from n on of a
-    /// sum with terms in the ratio (β / 2)² / (n (n + 3/2)). Waves end where its transform stops falling, and those left out are 60 to 110 exp(−β) in all.
+    /// sum with terms in the ratio (β / 2)² / (n (n + 3/2)). Waves end where its transform stops falling, and those left out are 35 to 105 exp(−β) in all.
     fn of(accuracy: f64) -> Self {
         let beta = (130.0 / accuracy).ln();
         let mut terms = vec![1.0];
@@ -61,7 +63,7 @@ impl Split {
         let coefficients = tails.iter().rev().enumerate().map(|(n, tail)| newton(n) * tail / left).collect();
         #[expect(clippy::cast_possible_truncation, reason = "below a hundred")]
         let shells = (beta / (0.97 * PI)).powi(2).ceil() as i32 - 1;
-        Self { coefficients, shells }
+        Self { coefficients, shells, softens: false }
     }
     /// P, P′, P″ and P‴.
     pub fn taper(&self, v: f64) -> [f64; 4] {

@@ -22,7 +22,7 @@ pub const KEYS: &[Key] = &[
     Key::new("theta", Kind::Fraction, Value::Number(0.5), "the opening angle θ of the tree, at most 1: a group of size l is approximated beyond the distance l / θ"),
     Key::new("alpha", Kind::NotNegative, Value::Number(0.0), "above 0: the relative opening criterion (GADGET): a group of mass M and size l is approximated where G M l² / d⁴ is below α times the last acceleration"),
     Key::new("images", Kind::Choice(&["nearest", "ewald"]), Value::Text(Cow::Borrowed("nearest")), "in a periodic box: nearest images only, or Ewald sums over all images on a neutralizing background, in a cube (Ewald 1921)"),
-    Key::new("accuracy", Kind::Positive, Value::Number(FITTED), "with images = \"ewald\": the error of the force of a mass M, root mean square over the cube, 1e-10 or more; rounding on the device adds some 1e-6 [G M / side²]"),
+    Key::new("accuracy", Kind::Positive, Value::Number(FITTED), "with images = \"ewald\": the error of the force of a mass M, root mean square over the cube, 1e-10 or more; more than 1.5e-4 changes nothing, rounding on a device adds some 1e-5, and a tree the error of its groups [G M / side²]"),
     Key::new("multipoles", Kind::Choice(&["quadrupole", "monopole"]), Value::Text(Cow::Borrowed("quadrupole")), "the multipole order of far groups"),
 ];
 
@@ -59,17 +59,17 @@ impl Gravity {
     }
     /// Whether there is such a law in the box of a problem.
     fn fits(&self, problem: &Problem) -> Result<(), Error> {
+        let accuracy = self.0.number("accuracy");
+        if accuracy < LEAST {
+            return Err(Error::Scene(format!(
+                "gravity has an accuracy of {accuracy:e} for images = \"ewald\": sums in double precision reach {LEAST:e}; give that or more"
+            )));
+        }
         if self.all_images() {
             if self.0.text("kernel") == "spline" {
                 return Err(Error::Scene(
                     "gravity with images = \"ewald\" is softened by kernel = \"plummer\" alone: leave out \"spline\"".to_owned(),
                 ));
-            }
-            let accuracy = self.0.number("accuracy");
-            if accuracy < LEAST {
-                return Err(Error::Scene(format!(
-                    "gravity with images = \"ewald\" has an accuracy of {accuracy:e}: sums in double precision reach {LEAST:e}; give that or more"
-                )));
             }
             return ewald::fits(problem, self.0.number("softening"));
         }
@@ -154,6 +154,18 @@ impl Component for Gravity {
             ];
             let world = [crate::shader!("world.wgsl"), crate::shader!("fields.wgsl"), crate::shader!("law/circle.wgsl")];
             let [structure, images] = ewald::kernels(&self.split(), self.0.number("g"), &world, sources, problem)?;
+            let mine = structure.tables.iter().find(|(name, _)| name == "gravity_wave").map(|(_, words)| words);
+            let first = plan.table("gravity_wave");
+            if let (Some(mine), Some(first)) = (mine, first)
+                && mine != first
+            {
+                return Err(Error::Scene(format!(
+                    "a second gravity with images = \"ewald\" has an accuracy of {:e}, with {} waves, and the first has {}: give both the same accuracy",
+                    self.0.number("accuracy"),
+                    mine.len() / 4 - 1,
+                    first.len() / 4 - 1
+                )));
+            }
             plan.push(&numbered("gravity structure", earlier), || Ok(structure))?;
             plan.push(&numbered("gravity images", earlier), || Ok(images))?;
         }

@@ -26,7 +26,7 @@ impl<B: Backend> Simulation<B> {
     /// keep what they were encoded with.
     ///
     /// Some settings are compiled into kernels, or decide the size of buffers, and are refused: the medium of a fluid (`density`,
-    /// `spacing`, `support`, `gamma`, `sound_speed`), the `range` of a search, `theta` of a tree, the `strain` of a strain limit, and
+    /// `spacing`, `support`, `gamma`, `sound_speed`), the `range` of a search, `theta` of a tree, the `accuracy` of Ewald sums, the `strain` of a strain limit, and
     /// those that add a term where they were 0, such as a fluid's `viscosity`.
     ///
     /// # Errors

@@ -25,7 +25,7 @@ typed! {
         alpha: f64,
         /// In a periodic box: nearest images only, or Ewald sums over all images on a neutralizing background, in a cube (Ewald 1921): nearest, ewald.
         images: Cow<'static, str>,
-        /// With images = "ewald": the error of the force of a mass M, root mean square over the cube, 1e-10 or more; rounding on the device adds some 1e-6 \[G M / side²\].
+        /// With images = "ewald": the error of the force of a mass M, root mean square over the cube, 1e-10 or more; more than 1.5e-4 changes nothing, rounding on a device adds some 1e-5, and a tree the error of its groups \[G M / side²\].
         accuracy: f64,
         /// The multipole order of far groups: quadrupole, monopole.
         multipoles: Cow<'static, str>,

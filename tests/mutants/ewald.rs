@@ -16,7 +16,9 @@ use crate::support::{Random, Shared};
 const SIDE: f64 = 1.75;
 /// By the fitted taper, and by the one for any accuracy.
 const COARSE: f64 = 1e-3;
-const FINE: f64 = 8e-5;
+const FINE: f64 = 1e-8;
+/// As many waves as there is room for beside a tree.
+const FINE_TREE: f64 = 8e-5;
 
 fn cube() -> Bounds {
     let low = DVec3::new(-0.4, 2.5, 0.3);
@@ -62,7 +64,7 @@ pub fn all(shared: &Shared, device: &Device, stages: &mut Vec<Stage>) {
             stages.push(stage(&name, spread(device, FEW, machine), kernel));
         }
     }
-    for accuracy in [COARSE, FINE].into_iter().filter(|_| subgroups_of_eight(shared)) {
+    for accuracy in [COARSE, FINE_TREE].into_iter().filter(|_| subgroups_of_eight(shared)) {
         let machine = Machine { subgroup: 8, ..machine };
         let forces = gravity("tree", accuracy);
         let mut step = Step::new(&forces, problem(machine, FEW));

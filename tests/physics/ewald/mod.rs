@@ -36,8 +36,14 @@ fn gravity(g: f64, softening: f64, over: &'static str) -> Vec<Box<dyn Component>
 
 /// The same to a root mean square error of the force of a unit mass.
 fn accurate(g: f64, accuracy: f64, over: &'static str) -> Vec<Box<dyn Component>> {
+    softened(g, accuracy, 0.0, over)
+}
+
+/// The same, softened.
+fn softened(g: f64, accuracy: f64, softening: f64, over: &'static str) -> Vec<Box<dyn Component>> {
     let settings = [
         ("g", Value::Number(g)),
+        ("softening", Value::Number(softening)),
         ("over", word(over)),
         ("images", word("ewald")),
         ("accuracy", Value::Number(accuracy)),
