@@ -1,7 +1,7 @@
 // Newton's law in a periodic cube of side L, with a cut-off at half a side (the short-range part): the rest of all images and of the mean
 // density is smooth, and is summed over Fourier modes (Ewald 1921). With ρ² = r² + ε² and v = 1 − (2 r / L)², as long as v > 0:
 // φ = −G m [1 / ρ − (2 / L) P(v)],  a = G m [1 / ρ³ − 2 (2 / L)³ P′(v)] r.
-// P is a polynomial whose degree grows with the accuracy (after Kaiser & Schafer, IEEE Trans. ASSP 28, 105, 1980).
+// P is a polynomial of a degree that grows with the accuracy (after Kaiser & Schafer, IEEE Trans. ASSP 28, 105, 1980).
 struct Params {
     unused_word: u32,
     g: f32,

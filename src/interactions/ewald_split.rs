@@ -12,7 +12,7 @@ pub struct Split {
     coefficients: Vec<f64>,
     /// The maximum |k|² of waves, in periods per side.
     shells: i32,
-    /// Whether the law between two fades out by its softened distance.
+    /// Whether it is the fitted one, which fades out by the softened distance and has its coefficients in its shaders.
     pub softens: bool,
 }
 

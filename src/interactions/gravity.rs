@@ -96,18 +96,15 @@ impl Component for Gravity {
         vec![if self.all_images() {
             let split = Arc::new(self.split());
             let beyond = Arc::clone(&split);
-            let fitted = self.0.number("accuracy") >= FITTED;
-            let files = if fitted {
+            let files = if split.softens {
                 let distant = self.distant(crate::shader!("interactions/gravity_ewald_distant.wgsl"));
                 (crate::shader!("interactions/gravity_ewald.wgsl"), distant)
             } else {
+                let vectors = split.vectors().into_iter().enumerate();
+                values.extend(vectors.map(|(n, four)| (format!("taper_{n}"), Scalar::Vector4(four))));
                 let distant = self.distant(crate::shader!("interactions/gravity_ewald_accurate_distant.wgsl"));
                 (crate::shader!("interactions/gravity_ewald_accurate.wgsl"), distant)
             };
-            if !fitted {
-                let vectors = split.vectors().into_iter().enumerate();
-                values.extend(vectors.map(|(n, four)| (format!("taper_{n}"), Scalar::Vector4(four))));
-            }
             let frequency = |world: &World| world.bounds.frequency().x;
             let rule = move |_: &Particle, you: &Particle, r, world: &World| {
                 ewald::pair(&split, g * you.mass, softening, r, frequency(world))

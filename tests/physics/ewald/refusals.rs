@@ -11,7 +11,8 @@ use crate::support::states::{force, word};
 
 const MACHINE: Machine = Machine { software: true, subgroup: 8, invocations: 1, ..Machine::HOST };
 
-fn refused(force: &dyn Component, bounds: Bounds) -> Option<String> {
+/// Why a force is refused in a box, if it is.
+pub fn refused(force: &dyn Component, bounds: Bounds) -> Option<String> {
     let problem = Problem::new(100, MACHINE).at(&[], bounds);
     force.stage(Stage::Evaluate { earlier: 0 }, &mut Plan::default(), &problem).err().map(|error| error.to_string())
 }

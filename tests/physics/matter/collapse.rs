@@ -1,13 +1,8 @@
 //! Columns of grains that collapse, and drums that turn, against what was measured.
 
 use motes::State;
-use motes::scene::SCENES;
 
-/// States of a built-in scene, at these steps.
-fn states(name: &str, overrides: &[String], at: &[u32]) -> Vec<State> {
-    let scene = SCENES.iter().find(|scene| scene.name == name).expect("a built-in scene");
-    super::states(scene.text.to_owned(), overrides, at)
-}
+use super::states_of;
 
 /// The column's width, that of the channel and the diameter of a grain, in metres.
 const WIDTH: f64 = 0.12;
@@ -30,7 +25,7 @@ fn run_out(more: &[(usize, &str, f64)]) -> f64 {
     }
     overrides.extend(more.iter().map(|(force, key, x)| format!("force.{force}.{key}={x}")));
     // The gate opens at step 2333.
-    let all = states("column_collapse", &overrides, &[2300, 4900, 5600]);
+    let all = states_of("column_collapse", &overrides, &[2300, 4900, 5600]);
     let mean = |state: &State| state.position().iter().map(|x| x.z).sum::<f64>() / state.len() as f64;
     let height = 2.0 * mean(&all[0]);
     // A heap ends where the floor is covered by half at most.
@@ -83,7 +78,7 @@ fn slope(state: &State) -> f64 {
 fn drums_have_a_dynamic_angle_of_repose() {
     let angle = |more: &[&str]| {
         let more: Vec<String> = more.iter().map(|set| (*set).to_owned()).collect();
-        let angles: Vec<f64> = states("drum", &more, &[11_000, 12_500]).iter().map(slope).collect();
+        let angles: Vec<f64> = states_of("drum", &more, &[11_000, 12_500]).iter().map(slope).collect();
         println!("{more:?}: {angles:?}");
         0.5 * (angles[0] + angles[1])
     };
@@ -107,7 +102,7 @@ fn tower(more: &[&str]) -> [f64; 2] {
     ];
     let soft = (0..5).map(|force| format!("force.{force}.stiffness=25"));
     let overrides: Vec<String> = lower.iter().chain(more).map(|set| (*set).to_owned()).chain(soft).collect();
-    let last = states("sandcastle", &overrides, &[6_000]).remove(0);
+    let last = states_of("sandcastle", &overrides, &[6_000]).remove(0);
     // Its mould has a foot with a radius of 8.5 mm. The other moulds, of a grain or none, stand 15 mm away.
     let of_it: Vec<_> = last.position().iter().filter(|x| x.x.abs() < 0.0145).collect();
     let top = of_it.iter().map(|x| x.z).fold(0.0, f64::max);

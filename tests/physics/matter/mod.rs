@@ -60,6 +60,12 @@ pub fn on_cpu(setup: &Setup) -> Simulation<Cpu> {
     Simulation::on(Cpu::new(setup.check().expect("a setup")).expect("some"), setup).expect("a simulation")
 }
 
+/// States of a built-in scene on the device, at these steps.
+pub fn states_of(name: &str, overrides: &[String], at: &[u32]) -> Vec<State> {
+    let scene = motes::scene::SCENES.iter().find(|scene| scene.name == name).expect("a built-in scene");
+    states(scene.text.to_owned(), overrides, at)
+}
+
 /// States of the text of a scene on the device, at these steps.
 pub fn states(text: String, overrides: &[String], at: &[u32]) -> Vec<State> {
     let source = Source::Text { name: "grains.toml".to_owned(), text, folder: PathBuf::from(".") };

@@ -7,17 +7,16 @@ fn gaps() -> [f64; 2] {
     let fast = [("0", 12), ("1", -12)]
         .map(|(grip, far)| format!("motion.{grip}.keys=[{{ time = 2 }}, {{ time = 32, shift = [{far}, 0, 0] }}]"));
     let overrides: Vec<String> = thin.chain(fast).collect();
-    let scene = motes::scene::SCENES.iter().find(|scene| scene.name == "nanowire").expect("a built-in scene");
     let gap = |state: &motes::State| {
         let mut along: Vec<f64> = state.position().iter().map(|x| x.x).collect();
         along.sort_by(f64::total_cmp);
         along.windows(2).map(|two| two[1] - two[0]).fold(0.0, f64::max)
     };
-    let all = crate::matter::states(scene.text.to_owned(), &overrides, &[1400, 6400]);
+    let all = crate::matter::states_of("nanowire", &overrides, &[1400, 6400]);
     [gap(&all[0]), gap(&all[1])]
 }
 
-/// At a strain of a sixth all is one piece, whose layers are half a cell apart, 0.78, or somewhat more; when it is twice as long, it has torn.
+/// At a strain of a sixth all is one piece, with layers half a cell apart, 0.78, or somewhat more; when it is twice as long, it has torn.
 #[test]
 fn a_wire_is_drawn_out_and_tears() {
     let [whole, torn] = gaps();
