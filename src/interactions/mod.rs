@@ -20,6 +20,7 @@ components! {
     wind: Wind, "a wind that blows in gusts and carries particles along";
     vortex: Vortex, "a vortex about an axis that carries particles along (Kaufmann 1962)";
     attractor: Attractor, "a fixed or moving centre: point mass, spring or logarithmic halo";
+    tweezers: Tweezers, "a Gaussian trap along a line, as that of a laser beam (Ashkin et al. 1986)";
     boids: Boids, "a flock: separation, alignment and cohesion within a field of view (Reynolds 1987, 1999)";
     obstacle: Obstacle, "a sphere, a box or a plane that particles avoid by looking ahead (after Reynolds 1999)";
     flee: Flee, "prey flee from predators";

@@ -70,6 +70,16 @@ impl Camera {
         let scale = 1.0 / (self.extent * nearer);
         (nearer > NEAR && scale.is_finite()).then(|| [r.dot(self.right) * scale, r.dot(self.up) * scale])
     }
+    /// What is seen at a place on the picture \[halves of its height, to the right and up from its middle\]: the point of it that is as far away as the
+    /// centre, and the direction away from the eye.
+    #[must_use]
+    pub fn ray(&self, across: f64, up: f64) -> (DVec3, DVec3) {
+        let beside = self.extent * (across * self.right + up * self.up);
+        (
+            self.center + beside,
+            (beside - self.distance * self.back).try_normalize().filter(|_| self.distance > 0.0).unwrap_or(-self.back),
+        )
+    }
     fn reach(&mut self, extent: f64, perspective: bool) {
         self.extent = extent;
         self.distance = if perspective { extent / HALF_VIEW } else { 0.0 };
@@ -191,6 +201,20 @@ mod tests {
         assert_eq!(camera(10.0).sees(x + 5.0 * back), Some([1.0, -0.5]));
         assert_eq!(camera(10.0).sees(x + 9.6 * back), None);
         assert_eq!(camera(10.0).sees(x + 20.0 * back), None);
+    }
+    #[test]
+    fn all_of_a_ray_is_seen_at_its_place() {
+        let (center, extent) = (DVec3::new(1.0, 2.0, 3.0), 4.0);
+        let (back, right, up) = (DVec3::Y, DVec3::NEG_X, DVec3::Z);
+        for distance in [0.0, 10.0] {
+            let camera = Camera { center, back, right, up, extent, distance };
+            let (point, direction) = camera.ray(0.5, -0.25);
+            assert!((direction.length() - 1.0).abs() < 1e-12 && direction.dot(back) < 0.0, "{direction}");
+            for along in [-6.0, 0.0, 30.0] {
+                let [across, above] = camera.sees(point + along * direction).expect("in front of the eye");
+                assert!((across - 0.5).abs() < 1e-12 && (above + 0.25).abs() < 1e-12, "{across} {above} at {along}");
+            }
+        }
     }
     #[test]
     fn stragglers_are_left_out_and_edges_are_not() {

@@ -132,6 +132,10 @@ impl Pictures {
     pub fn looks(&self) -> &Settings {
         &self.picture
     }
+    /// Shows the obstacles of a setup beside its particles from now on.
+    pub fn surround(&mut self, setup: &Setup) {
+        self.scenery = scenery(setup);
+    }
     /// Changes one of them.
     pub fn set(&mut self, key: &'static str, value: Value) {
         self.picture.0.insert(key, value);

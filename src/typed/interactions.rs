@@ -93,6 +93,19 @@ typed! {
         /// What is evaluated: single particles.
         over: Cow<'static, str>,
     }
+    /// A Gaussian trap along a line, as that of a laser beam (Ashkin et al. 1986).
+    Tweezers "tweezers" tweezers() {
+        /// A point on the axis of the beam \[length\].
+        position: DVec3,
+        /// The direction of the beam.
+        axis: DVec3,
+        /// The distance w from the axis at which the trap is e² times shallower \[length\].
+        waist: f64,
+        /// The depth U of the trap, per mass; below 0 it repels \[length² / time²\].
+        depth: f64,
+        /// What is evaluated: single particles.
+        over: Cow<'static, str>,
+    }
     /// A flock: separation, alignment and cohesion within a field of view (Reynolds 1987, 1999).
     Boids "boids" boids() {
         /// The range of view, near and within \[length\].

@@ -2,6 +2,7 @@
 
 use glam::DVec3;
 
+use super::tool::Tool;
 use crate::settings::Value;
 
 /// A request. Lengths on the picture are in halves of its height, from its middle, to the right and up.
@@ -33,6 +34,20 @@ pub enum Action {
     Projection,
     /// All particles in the picture.
     Frame,
+    /// Fly: to the right, up and forwards \[halves of the picture's height\].
+    Fly { right: f64, up: f64, forward: f64 },
+    /// Turn the camera about the eye \[radians\].
+    Turn { across: f64, up: f64 },
+    /// Another use of the pointer.
+    Use(Tool),
+    /// Pull particles to a place on the picture, or push them away; until it is let go.
+    Pull { across: f64, up: f64 },
+    /// Pull no more.
+    Release,
+    /// Place a ball.
+    Place { across: f64, up: f64, radius: f64 },
+    /// Remove the last ball.
+    Remove,
     /// Choose the particle that is drawn at a place on the picture, or none.
     Choose { across: f64, up: f64 },
     /// The camera goes with the chosen particle, or no longer.

@@ -1,11 +1,12 @@
 //! The panel, and the place of the picture.
 
 use egui::{
-    CentralPanel, CollapsingHeader, Color32, ComboBox, Frame, Image, Panel, PointerButton, Rect, ScrollArea, Sense,
-    Slider, Stroke, Ui, Vec2, load::SizedTexture, pos2,
+    CentralPanel, CollapsingHeader, Color32, ComboBox, Frame, Image, Panel, PointerButton, Rect, Response, ScrollArea,
+    Sense, Slider, Stroke, Ui, Vec2, load::SizedTexture, pos2,
 };
 
 use super::action::Action;
+use super::tool::{self, Tool};
 use super::{View, keyboard, sliders};
 use crate::kernel::Backend;
 use crate::render;
@@ -69,6 +70,7 @@ fn panel<B: Backend>(view: &mut View<B>, ui: &mut Ui) {
     }
     ui.separator();
     run(view, ui);
+    tool::show(&mut view.hand, view.stage.balls(), ui, &mut view.actions);
     if !view.message.is_empty() {
         let color = if view.faulty { ui.visuals().error_fg_color } else { ui.visuals().warn_fg_color };
         ui.colored_label(color, &view.message);
@@ -169,8 +171,9 @@ fn looks<B: Backend>(view: &mut View<B>, ui: &mut Ui) {
 }
 
 fn forces<B: Backend>(view: &mut View<B>, ui: &mut Ui) {
-    let start = view.stage.start.forces.iter().map(|force| force.settings());
+    let start = view.stage.original();
     for ((name, settings), scene) in view.stage.simulation.settings().into_iter().zip(start) {
+        let Some(scene) = scene.map(|force| force.settings()) else { continue };
         if settings.is_empty() {
             continue;
         }
@@ -196,24 +199,18 @@ fn picture<B: Backend>(view: &mut View<B>, ui: &mut Ui) {
     }
     let half = f64::from(0.5 * place.height()).max(1.0);
     mark(view, ui, place);
-    let drag = response.drag_delta();
-    let (across, up) = (f64::from(drag.x) / half, -f64::from(drag.y) / half);
-    if drag != Vec2::ZERO {
-        let shift = ui.input(|input| input.modifiers.shift);
-        let turns = response.dragged_by(PointerButton::Primary) && !shift && !view.is_flat();
-        view.actions.push(if turns {
-            Action::Orbit { across: 0.5 * TURN * across, up: -0.5 * TURN * up }
-        } else {
-            Action::Pan { across, up }
-        });
-    }
+    drag(view, ui, &response, place);
     if response.double_clicked() {
         view.actions.push(Action::Frame);
     } else if response.clicked()
         && let Some(pointer) = response.interact_pointer_pos()
     {
         let from = pointer - place.center();
-        view.actions.push(Action::Choose { across: f64::from(from.x) / half, up: -f64::from(from.y) / half });
+        let (across, up) = (f64::from(from.x) / half, -f64::from(from.y) / half);
+        view.actions.push(match view.hand.tool {
+            Tool::Ball => Action::Place { across, up, radius: 0.0 },
+            _ => Action::Choose { across, up },
+        });
     }
     if let Some(pointer) = response.hover_pos() {
         let (wheel, pinch) = ui.input(|input| (input.smooth_scroll_delta.y, input.zoom_delta()));
@@ -224,6 +221,64 @@ fn picture<B: Backend>(view: &mut View<B>, ui: &mut Ui) {
             view.actions.push(Action::Zoom { factor, across, up });
         }
     }
+}
+
+/// A drag across the picture: of the camera, or with a tool.
+fn drag<B: Backend>(view: &mut View<B>, ui: &Ui, response: &Response, place: Rect) {
+    let half = f64::from(0.5 * place.height()).max(1.0);
+    let by = response.drag_delta();
+    let (across, up) = (f64::from(by.x) / half, -f64::from(by.y) / half);
+    let shift = ui.input(|input| input.modifiers.shift);
+    let primary = response.dragged_by(PointerButton::Primary) && !shift;
+    let at = response.interact_pointer_pos().map(|pointer| {
+        let from = pointer - place.center();
+        [f64::from(from.x) / half, -f64::from(from.y) / half]
+    });
+    if let (Some([across, up]), true) = (at, primary && view.hand.tool != Tool::Look) {
+        if view.hand.tool == Tool::Ball {
+            view.hand.begun.get_or_insert([across, up]);
+        } else {
+            view.actions.push(Action::Pull { across, up });
+            // What is pulled goes on moving while the pointer rests.
+            ui.ctx().request_repaint();
+        }
+    } else if by != Vec2::ZERO {
+        let flies = keyboard::flight(ui.ctx()).is_some();
+        let (turn_across, turn_up) = (0.5 * TURN * across, -0.5 * TURN * up);
+        view.actions.push(if !primary || view.is_flat() {
+            Action::Pan { across, up }
+        } else if flies {
+            Action::Turn { across: 0.5 * turn_across, up: 0.5 * turn_up }
+        } else {
+            Action::Orbit { across: turn_across, up: turn_up }
+        });
+    }
+    if response.drag_stopped() {
+        if let (Some([x, y]), Some([across, up])) = (view.hand.begun.take(), at) {
+            let radius = (across - x).hypot(up - y);
+            view.actions.push(Action::Place { across: x, up: y, radius });
+        }
+        view.actions.push(Action::Release);
+    }
+    outline(view, ui, response, place);
+}
+
+/// A circle about the pointer, as far as a tool reaches.
+#[expect(clippy::cast_possible_truncation, reason = "a place on the screen")]
+fn outline<B: Backend>(view: &View<B>, ui: &Ui, response: &Response, place: Rect) {
+    let Some(pointer) = response.interact_pointer_pos().or(response.hover_pos()) else { return };
+    let half = 0.5 * place.height();
+    let (middle, radius) = match (view.hand.tool, view.hand.begun) {
+        (Tool::Pull | Tool::Push, _) => (pointer, view.hand.reach as f32 * half),
+        (Tool::Ball, Some([across, up])) => {
+            let middle = place.center() + Vec2::new(across as f32 * half, -up as f32 * half);
+            (middle, (pointer - middle).length())
+        }
+        _ => return,
+    };
+    let painter = ui.painter_at(place);
+    painter.circle_stroke(middle, radius + 1.5, Stroke::new(1.5, Color32::from_black_alpha(140)));
+    painter.circle_stroke(middle, radius, Stroke::new(1.5, Color32::from_white_alpha(160)));
 }
 
 /// A ring around the chosen particle.

@@ -4,6 +4,7 @@ use egui::{Context, Key, Modifiers};
 use glam::DVec3;
 
 use super::action::Action;
+use super::tool::Tool;
 
 /// The keys, and what they do.
 pub const KEYS: &[(&str, &str)] = &[
@@ -16,25 +17,57 @@ pub const KEYS: &[(&str, &str)] = &[
     ("O", "perspective, or parallel rays"),
     ("← → ↑ ↓", "turn the camera"),
     ("+ −", "closer, farther"),
+    ("W A S D", "fly ahead, to the left, back, to the right; a drag then turns about the eye"),
+    ("E Q", "fly up, down"),
+    ("G", "the next use of a drag: look, pull, push, place a ball"),
     ("P", "save a picture"),
     ("V", "record a film, and save it"),
     ("H", "hide the panel"),
     ("?", "this list"),
     ("click", "choose a particle"),
     ("T", "the camera goes with it, or no longer"),
-    ("Esc", "choose none"),
-    ("drag", "turn; with the right button or Shift: shift"),
+    ("Esc", "choose none, and look"),
+    ("drag", "turn, or what G chose; with the right button or Shift: shift"),
     ("wheel", "closer, farther, at the pointer"),
 ];
 
 /// So far an arrow turns the camera \[radians\], and so much closer a key goes.
 const TURN: f64 = 0.1;
 const CLOSER: f64 = 0.8;
+/// So many half heights of the picture the camera flies in a second.
+const FLIGHT: f64 = 1.2;
+/// The keys that fly: to the right, up and forwards.
+const WINGS: [(Key, [f64; 3]); 6] = [
+    (Key::D, [1.0, 0.0, 0.0]),
+    (Key::A, [-1.0, 0.0, 0.0]),
+    (Key::E, [0.0, 1.0, 0.0]),
+    (Key::Q, [0.0, -1.0, 0.0]),
+    (Key::W, [0.0, 0.0, 1.0]),
+    (Key::S, [0.0, 0.0, -1.0]),
+];
+
+/// The direction of flight, as far as keys are held down for it.
+pub fn flight(context: &Context) -> Option<[f64; 3]> {
+    if context.text_edit_focused() {
+        return None;
+    }
+    let held = context.input(|input| {
+        let bare = !input.modifiers.any() || input.modifiers == Modifiers::SHIFT;
+        WINGS.iter().filter(|(key, _)| bare && input.key_down(*key)).map(|(_, way)| *way).collect::<Vec<_>>()
+    });
+    (!held.is_empty()).then(|| held.iter().fold([0.0; 3], |sum, way| [0, 1, 2].map(|k| sum[k] + way[k])))
+}
 
 /// Reads the keys of a frame. While a text is edited, they belong to it.
-pub fn read(context: &Context, actions: &mut Vec<Action>) {
+pub fn read(context: &Context, tool: Tool, actions: &mut Vec<Action>) {
     if context.text_edit_focused() {
         return;
+    }
+    if let Some([right, up, forward]) = flight(context) {
+        let way = FLIGHT * f64::from(context.input(|input| input.stable_dt).min(0.1));
+        actions.push(Action::Fly { right: way * right, up: way * up, forward: way * forward });
+        // As long as they are held nothing else need happen.
+        context.request_repaint();
     }
     // A focused slider takes the arrows.
     let focused = context.memory(|memory| memory.focused().is_some());
@@ -62,6 +95,8 @@ pub fn read(context: &Context, actions: &mut Vec<Action>) {
         on(Key::O, Action::Projection);
         on(Key::T, Action::Follow);
         on(Key::Escape, Action::LetGo);
+        on(Key::Escape, Action::Use(Tool::Look));
+        on(Key::G, Action::Use(tool.next()));
         for key in [Key::Plus, Key::Equals] {
             on(key, Action::Zoom { factor: CLOSER, across: 0.0, up: 0.0 });
         }

@@ -1,6 +1,7 @@
 //! A simulation that one watches and changes while it runs. It knows no window: a shell gives it input, and paints what it makes.
 
 mod action;
+mod added;
 mod chosen;
 mod controls;
 mod energies;
@@ -11,6 +12,7 @@ mod recording;
 mod seldom;
 mod sliders;
 mod stage;
+mod tool;
 
 use egui::{TextureId, Ui};
 use glam::DVec3;
@@ -27,6 +29,7 @@ use energies::Energies;
 use pace::Pace;
 use recording::Recording;
 use stage::Stage;
+use tool::{Hand, Tool};
 
 /// Makes a simulation of a setup on the shell's device.
 pub type Make<B> = Box<dyn Fn(&Setup) -> Result<Simulation<B>, Error>>;
@@ -48,6 +51,7 @@ pub struct View<B: Backend> {
     pace: Pace,
     energies: Energies,
     chosen: Option<Chosen>,
+    hand: Hand,
     paused: bool,
     /// Whether the panel is shown, and the list of keys.
     panel: bool,
@@ -80,6 +84,7 @@ impl<B: Backend> View<B> {
             stage,
             energies: Energies::default(),
             chosen: None,
+            hand: Hand::default(),
             paused: false,
             panel: true,
             help: false,
@@ -154,7 +159,7 @@ impl<B: Backend> View<B> {
     }
     /// The controls and the picture, and what the user asks for.
     pub fn controls(&mut self, ui: &mut Ui) {
-        keyboard::read(ui.ctx(), &mut self.actions);
+        keyboard::read(ui.ctx(), self.hand.tool, &mut self.actions);
         controls::show(self, ui);
     }
     /// Does what was asked for, advances, and draws. A fault of the run stops it and is said.
@@ -232,6 +237,13 @@ impl<B: Backend> View<B> {
         self.taken = Some(Taken { png: recording.film()?, name });
         Ok(())
     }
+    async fn pull(&mut self, across: f64, up: f64) -> Result<(), Error> {
+        let Some(sign) = self.hand.tool.sign() else { return Ok(()) };
+        if self.paused {
+            self.message = "nothing is pulled while the run stands still: Space goes on".to_owned();
+        }
+        self.stage.pull(across, up, self.hand.reach, sign * self.hand.strength).await
+    }
     async fn choose(&mut self, across: f64, up: f64) -> Result<(), Error> {
         let place = self.stage.found(across, up).await?;
         self.chosen = match place {
@@ -292,6 +304,18 @@ impl<B: Backend> View<B> {
             Action::From { back, up } => self.stage.camera(|camera| orbit::from(camera, back, up)),
             Action::Projection => self.stage.camera(orbit::other_projection),
             Action::Frame => self.stage.frame().await?,
+            Action::Fly { right, up, forward } => {
+                self.stage.camera(|camera| orbit::flown(camera, right, up, forward));
+            }
+            Action::Turn { across, up } => self.stage.camera(|camera| orbit::looked(camera, across, up)),
+            Action::Use(tool) => self.hand.tool = tool,
+            Action::Pull { across, up } => self.pull(across, up).await?,
+            Action::Release => self.stage.release()?,
+            Action::Place { across, up, radius } => {
+                self.stage.place(across, up, radius).await?;
+                self.hand.tool = Tool::Look;
+            }
+            Action::Remove => self.stage.remove().await?,
             Action::Choose { across, up } => self.choose(across, up).await?,
             Action::Follow => {
                 if let Some(chosen) = &mut self.chosen {

@@ -38,6 +38,24 @@ pub fn zoomed(camera: Camera, factor: f64, across: f64, up: f64) -> Camera {
     Camera { center: camera.center + (1.0 - factor) * at, ..closer }
 }
 
+/// Turned about the eye, which stays where it is.
+#[must_use]
+pub fn looked(camera: Camera, across: f64, up: f64) -> Camera {
+    let eye = camera.center + camera.distance * camera.back;
+    let turned = turned(camera, across, up);
+    Camera { center: eye - turned.distance * turned.back, ..turned }
+}
+
+/// Moved with its eye to the right, up and forwards, in half heights of the picture. With parallel rays, which show the same from wherever along
+/// them, it comes closer instead.
+#[must_use]
+pub fn flown(camera: Camera, right: f64, up: f64, forward: f64) -> Camera {
+    let ahead = if camera.distance > 0.0 { forward } else { 0.0 };
+    let way = right * camera.right + up * camera.up - ahead * camera.back;
+    let moved = Camera { center: camera.center + camera.extent * way, ..camera };
+    if camera.distance > 0.0 { moved } else { moved.wider((-forward).exp()) }
+}
+
 /// From a direction.
 #[must_use]
 pub fn from(camera: Camera, back: DVec3, up: DVec3) -> Camera {
@@ -96,6 +114,21 @@ mod tests {
         assert!((other_projection(parallel).distance - from.distance).abs() < 1e-12);
         let (across, up) = place(&shifted(parallel, 0.2, 0.1), x);
         assert!((across - 0.7).abs() < 1e-12 && (up + 0.15).abs() < 1e-12);
+    }
+    #[test]
+    fn a_camera_flies_where_it_looks_and_turns_about_its_eye() {
+        let from = camera();
+        let eye = |camera: &Camera| camera.center + camera.distance * camera.back;
+        let flown = super::flown(from, 0.0, 0.0, 1.5);
+        assert!((eye(&flown) - eye(&from) + 3.0 * from.back).length() < 1e-9, "{flown:?}");
+        assert_eq!((flown.back, flown.extent), (from.back, from.extent));
+        let looked = looked(flown, 0.4, -0.2);
+        upright(&looked);
+        assert!((eye(&looked) - eye(&flown)).length() < 1e-9 && looked.back.dot(flown.back) < 0.95);
+        let parallel = other_projection(from);
+        let closer = super::flown(parallel, 0.5, 0.0, 1.0);
+        assert!((closer.extent - parallel.extent * (-1.0f64).exp()).abs() < 1e-12);
+        assert!((closer.center - parallel.center - parallel.right).length() < 1e-9);
     }
     #[test]
     fn six_views_are_along_axes() {

@@ -3,6 +3,7 @@
 use glam::{DVec2, DVec3, DVec4};
 
 use super::Make;
+use super::added::Added;
 use crate::error::Error;
 use crate::kernel::{Array, Backend, POSITION};
 use crate::render::{Camera, Image, Live, PROJECTED, Picture, Trail};
@@ -24,7 +25,7 @@ pub struct Stage<B: Backend> {
     /// What it began with.
     pub start: Setup,
     make: Make<B>,
-    pictures: Pictures,
+    pub(super) pictures: Pictures,
     live: Live,
     /// The state by which the picture was framed.
     framed: State,
@@ -33,6 +34,8 @@ pub struct Stage<B: Backend> {
     time: f64,
     /// Samples of a pixel each way where edges are smooth.
     fine: u32,
+    /// What was added to the forces of the scene: balls, and the trap of the hand.
+    pub(super) added: Added,
 }
 
 impl<B: Backend> Stage<B> {
@@ -45,7 +48,20 @@ impl<B: Backend> Stage<B> {
         let live = Live::new(pictures.of(&framed, trail)?);
         let (time, fine) = (framed.time, live.picture.frame.fine);
         let (name, about) = (scene.name.clone(), scene.about.clone());
-        Ok(Self { name, about, simulation, start, make, pictures, live, framed, moved: false, time, fine })
+        Ok(Self {
+            name,
+            about,
+            simulation,
+            start,
+            make,
+            pictures,
+            live,
+            framed,
+            moved: false,
+            time,
+            fine,
+            added: Added::default(),
+        })
     }
     pub fn dt(&self) -> f64 {
         self.start.dt
@@ -169,10 +185,16 @@ impl<B: Backend> Stage<B> {
         // What is invalid stays refused.
         setup.forces[place] = setup.forces[place].changed(setting, &value.into())?;
         setup.state = self.simulation.snapshot().await?;
-        let setup = setup.in_its_box()?.into_owned();
-        self.simulation = (self.make)(&setup)?;
-        self.simulation.check().await?;
+        self.go_on(&setup).await?;
         Ok(Some(format!("`{setting}` of `{force}` changes what kernels do: they were compiled anew")))
+    }
+    /// Goes on with another setup at the present state.
+    pub(super) async fn go_on(&mut self, setup: &Setup) -> Result<(), Error> {
+        let setup = setup.in_its_box()?.into_owned();
+        let mut simulation = (self.make)(&setup)?;
+        simulation.check().await?;
+        self.simulation = simulation;
+        Ok(())
     }
     /// Back to the start, with the present settings.
     pub async fn reset(&mut self) -> Result<(), Error> {
@@ -181,10 +203,12 @@ impl<B: Backend> Stage<B> {
     }
     /// Back to the start, with the settings of the scene.
     pub async fn restore(&mut self) -> Result<(), Error> {
+        self.added = Added::default();
         self.begin(&self.start.clone()).await
     }
     async fn begin(&mut self, setup: &Setup) -> Result<(), Error> {
         self.simulation = (self.make)(setup)?;
+        self.surround();
         *self.pictures.trail() = Trail::new(setup.state.len());
         self.time = setup.state.time;
         self.compose_anew().await

@@ -279,10 +279,26 @@ fn numbers_by_hand() {
             ],
         )
     };
-    let at = |profile| at(attractor(profile), [1.0, 3.0, 4.0], [9.0; 3], 2.0);
-    near(at("point"), [0.0, -1.0, -4.0 / 3.0, -12.0]);
-    near(at("harmonic"), [0.0, -216.0, -288.0, 900.0]);
-    near(at("logarithmic"), [0.0, -6.0, -8.0, 36.0 * 36f64.ln()]);
+    let pulled = |profile| at(attractor(profile), [1.0, 3.0, 4.0], [9.0; 3], 2.0);
+    near(pulled("point"), [0.0, -1.0, -4.0 / 3.0, -12.0]);
+    near(pulled("harmonic"), [0.0, -216.0, -288.0, 900.0]);
+    near(pulled("logarithmic"), [0.0, -6.0, -8.0, 36.0 * 36f64.ln()]);
+    // ρ = (0, 1, 0) and w = 2: U e^−½ deep, and the pull is the greatest, 2 U / (√e w). Along the beam nothing happens; the axis may have any length.
+    let tweezers = |depth| {
+        let settings = [
+            ("position", vector(5.0, 1.0, 1.0)),
+            ("axis", vector(3.0, 0.0, 0.0)),
+            ("waist", number(2.0)),
+            ("depth", number(depth)),
+        ];
+        force("tweezers", &settings)
+    };
+    let root = (-0.5f64).exp();
+    near(at(tweezers(10.0), [-8.0, 2.0, 1.0], [9.0; 3], 2.0), [0.0, -10.0 * root, 0.0, -10.0 * root]);
+    near(
+        at(tweezers(-10.0), [-8.0, 1.0, -1.0], [9.0; 3], 2.0),
+        [0.0, 0.0, -20.0 * (-2.0f64).exp(), 10.0 * (-2.0f64).exp()],
+    );
 }
 
 /// WebGPU allows eight storage buffers in a stage, whatever the law looks at and through which search.

@@ -112,6 +112,32 @@ impl Hand {
         self.button(from + by, button, false);
         self.frames(1);
     }
+    /// Holds the left button down at a place, for so many frames after it has moved there; then lets go.
+    pub fn hold(&mut self, from: Pos2, to: Pos2, frames: u32) {
+        self.frame(vec![Event::PointerMoved(from)]);
+        self.button(from, PointerButton::Primary, true);
+        self.frame(vec![Event::PointerMoved(from.lerp(to, 0.5))]);
+        self.frame(vec![Event::PointerMoved(to)]);
+        self.frames(frames);
+        self.button(to, PointerButton::Primary, false);
+        self.frames(1);
+    }
+    /// Holds a key down for so many frames.
+    pub fn hold_key(&mut self, key: Key, frames: u32) {
+        let event =
+            |pressed| Event::Key { key, physical_key: None, pressed, repeat: false, modifiers: Modifiers::NONE };
+        self.frame(vec![event(true)]);
+        self.frames(frames);
+        self.frame(vec![event(false)]);
+    }
+    /// The names of the forces.
+    pub fn forces(&mut self) -> Vec<String> {
+        self.view.simulation().settings().into_iter().map(|(name, _)| name).collect()
+    }
+    pub fn places(&mut self) -> Vec<DVec3> {
+        let positions = block_on(self.view.simulation().read(POSITION)).expect("positions");
+        positions.iter().map(|x| x.truncate().as_dvec3()).collect()
+    }
     /// Turns the wheel at a place, and waits until it has come to rest.
     pub fn wheel(&mut self, at: Pos2, points: f32) {
         self.frame(vec![Event::PointerMoved(at)]);

@@ -1,6 +1,8 @@
 //! The viewer, by hand: events as a window gives them, and what they do to the run and to its picture.
 
 mod hand;
+#[path = "../support/small.rs"]
+mod small;
 
 use std::process::Command;
 
@@ -263,4 +265,112 @@ fn a_click_chooses_what_is_drawn_there_and_the_camera_goes_with_it() {
     hand.click(*empty);
     hand.frames(2);
     assert_eq!(hand.chosen(), None);
+}
+
+/// The median distance of particles from the line of sight through the middle of the picture: `spring_chain` and its kin lie in a plane, and a
+/// camera along z sees it straight.
+fn median_distance(hand: &mut Hand) -> f64 {
+    let mut away: Vec<f64> = hand.places().iter().map(|x| x.truncate().length()).collect();
+    away.sort_by(f64::total_cmp);
+    away[away.len() / 2]
+}
+
+/// From above, at the middle of a sphere: what is pulled comes closer to the axis than what is not, and what is pushed is farther.
+#[test]
+fn a_drag_pulls_particles_or_pushes_them_and_lets_go() {
+    let away = |presses: u32| {
+        let mut hand = Hand::on("plummer", &["particles.0.count=500", "particles.0.seed=3"]);
+        hand.key(Key::Num5, Modifiers::NONE);
+        (0..presses).for_each(|_| hand.key(Key::G, Modifiers::NONE));
+        hand.until(12);
+        let middle = Pos2::new(250.0, 600.0);
+        hand.hold(middle, middle + Vec2::new(0.5, 0.0), 60);
+        let steps = hand.steps();
+        let pulled = median_distance(&mut hand);
+        (pulled, steps, hand)
+    };
+    let (alone, _, mut hand) = away(0);
+    assert_eq!(hand.forces(), ["gravity"]);
+    let (pulled, steps, mut hand_of_pull) = away(1);
+    assert!(pulled < 0.85 * alone, "pulled to {pulled}, by itself {alone}: {}", hand_of_pull.message());
+    assert_eq!(hand_of_pull.forces(), ["gravity", "tweezers"]);
+    let depth = hand_of_pull.setting("tweezers", "depth");
+    assert_eq!(depth, Value::Number(0.0), "it is let go");
+    let before = hand_of_pull.steps();
+    hand_of_pull.frames(3);
+    assert!(before >= steps && hand_of_pull.steps() == before + 3, "the run goes on");
+    let (pushed, ..) = away(2);
+    assert!(pushed > 1.1 * alone, "pushed to {pushed}, by itself {alone}");
+    // With the settings of the scene nothing is left of it.
+    let place = hand_of_pull.place("Scene");
+    hand_of_pull.click(place);
+    hand_of_pull.frames(1);
+    assert_eq!(hand_of_pull.forces(), ["gravity"]);
+    hand.key(Key::Space, Modifiers::NONE);
+    hand.key(Key::G, Modifiers::NONE);
+    hand.hold(Pos2::new(250.0, 600.0), Pos2::new(260.0, 600.0), 2);
+    assert!(hand.message().contains("Space"), "a run that stands still: {}", hand.message());
+}
+
+#[test]
+fn a_ball_is_placed_where_it_is_drawn_and_keeps_particles_out() {
+    let mut hand = Hand::on("plummer", &["particles.0.count=500"]);
+    hand.key(Key::Num5, Modifiers::NONE);
+    hand.frames(2);
+    let before = hand.picture();
+    (0..3).for_each(|_| hand.key(Key::G, Modifiers::NONE));
+    let (middle, edge) = (Pos2::new(250.0, 600.0), Pos2::new(310.0, 600.0));
+    hand.hold(middle, edge, 2);
+    assert_eq!(hand.forces(), ["gravity", "solid"], "{}", hand.message());
+    let (position, radius) = (hand.setting("solid", "position"), hand.setting("solid", "radius"));
+    let (Value::Vector(center), Value::Number(radius)) = (position, radius) else { panic!("a ball") };
+    hand.frames(20);
+    assert_ne!(hand.picture(), before);
+    let nearest = hand.places().iter().map(|x| x.distance(center)).fold(f64::INFINITY, f64::min);
+    assert!(nearest > 0.999 * radius, "a particle is inside: {nearest} of {radius}");
+    // The tool is used up: a drag turns the camera again. The ball has sliders of its own.
+    hand.hold(middle, edge, 2);
+    assert_eq!(hand.forces(), ["gravity", "solid"]);
+    hand.frames(20);
+    let place = hand.place("Remove the last ball");
+    hand.click(place);
+    hand.frames(1);
+    assert_eq!(hand.forces(), ["gravity"]);
+}
+
+/// Scenes of each kind take a pull and a ball: their kernels compile with them, and steps go on.
+#[test]
+fn scenes_of_each_kind_can_be_played_with() {
+    let names = ["dam_break_2d", "droplet", "cloth", "hair", "pile", "argon", "vicsek", "room", "fountain", "stiff"];
+    for scene in motes::scene::SCENES.iter().filter(|scene| names.contains(&scene.name)) {
+        let mut hand = Hand::on(scene.name, small::smaller(scene.name));
+        hand.key(Key::G, Modifiers::NONE);
+        hand.frames(1);
+        let middle = Pos2::new(250.0, 600.0);
+        hand.hold(middle, middle + Vec2::new(20.0, 0.0), 2);
+        assert_eq!(hand.message(), "", "{}", scene.name);
+        assert!(hand.forces().iter().any(|name| name.starts_with("tweezers")), "{}", scene.name);
+        (0..2).for_each(|_| hand.key(Key::G, Modifiers::NONE));
+        hand.hold(middle, middle + Vec2::new(0.0, 40.0), 1);
+        assert!(hand.forces().iter().any(|name| name.starts_with("solid")), "{}: {}", scene.name, hand.message());
+        hand.frames(2);
+    }
+}
+
+#[test]
+fn the_camera_flies_while_a_key_is_held() {
+    let mut hand = Hand::on("plummer", &["particles.0.count=500"]);
+    hand.key(Key::Space, Modifiers::NONE);
+    hand.frames(3);
+    let (before, width) = (hand.picture(), hand.size()[0] as usize);
+    hand.hold_key(Key::W, 60);
+    let near = hand.picture();
+    let [far, closer] = [&before, &near].map(|rgba| spread(rgba, width));
+    assert!(closer > 1.05 * far, "it does not come closer: {closer} after {far} pixels");
+    hand.hold_key(Key::S, 20);
+    hand.hold_key(Key::D, 10);
+    assert_ne!(hand.picture(), near);
+    let steps = hand.steps();
+    hand.frames(3);
+    assert_eq!(hand.steps(), steps);
 }

@@ -107,8 +107,8 @@ fn across_a_seam() {
     assert_eq!(near, across);
     assert!(near[0].truncate().length() > 100.0 * open[0].truncate().length(), "without a box they are far apart");
     // The nearest image of a centre pulls too.
-    for law in ["attractor", "vortex"] {
-        let key = if law == "attractor" { "position" } else { "center" };
+    for law in ["attractor", "vortex", "tweezers"] {
+        let key = if law == "vortex" { "center" } else { "position" };
         let at = |center: DVec3, x: DVec3| {
             let settings = [(key, Value::Vector(center))];
             accelerations_in(&bounds, &[force(law, &settings)], &one(x, DVec3::ZERO), 0.0)[0]
