@@ -14,6 +14,15 @@ use super::viewer::Wanted;
 #[wasm_bindgen]
 pub struct Viewer(Rc<Shell>);
 
+/// The text of a scene in which a file has a part: particles in the place of its own, or one more law, of which the text is needed.
+///
+/// # Errors
+/// When the file is of another kind, or the scene is no TOML.
+#[wasm_bindgen(js_name = withFile)]
+pub fn with_file(text: &str, name: &str, law: &str) -> Result<String, JsError> {
+    Ok(motes::scene::with_file(text, name, law)?)
+}
+
 /// A built-in scene.
 #[wasm_bindgen(getter_with_clone)]
 pub struct BuiltIn {
@@ -64,6 +73,10 @@ impl Viewer {
         std::panic::set_hook(Box::new(|panic| wasm_bindgen::throw_str(&panic.to_string())));
         Ok(Self(Shell::open(canvas).await?))
     }
+    /// Holds a file of bytes, such as particles, for scenes that name it.
+    pub async fn hold(&self, name: String, bytes: Vec<u8>) {
+        self.0.viewer.lock().await.hold(name, bytes);
+    }
     /// Opens a scene: a text of this name with the files that it names (name and text, one after the other), values in the form of `--set`,
     /// and a factor of the number of particles. Returns remarks.
     ///
@@ -77,7 +90,8 @@ impl Viewer {
         overrides: Vec<String>,
         scale: Option<f64>,
     ) -> Result<Vec<String>, JsError> {
-        let files: Vec<_> = files.as_chunks().0.iter().map(|[name, text]| (name.clone(), text.clone())).collect();
+        let files = files.as_chunks().0.iter();
+        let files = files.map(|[name, text]| (name.clone(), text.clone().into_bytes())).collect();
         let source =
             Source::Memory { name: PathBuf::from(name).with_extension("toml").display().to_string(), text, files };
         let wanted = Wanted { source, overrides, scale };

@@ -33,6 +33,8 @@ pub struct Viewer {
     /// The name of the scene that runs.
     name: String,
     taken: Option<Taken>,
+    /// Files of bytes, for scenes that name them.
+    held: Vec<(String, Vec<u8>)>,
     /// Scenes that the panel asks for are opened by the page's script, which knows the link.
     asked: Option<String>,
 }
@@ -42,15 +44,37 @@ impl Viewer {
     pub async fn open(window: Arc<Window>, context: Context) -> Result<Self, Error> {
         let size = window.inner_size();
         let (surface, found) = Surface::open(window, size.into(), &Choice::Best).await?;
-        Ok(Self { surface, found, context, size, view: None, name: String::new(), taken: None, asked: None })
+        Ok(Self {
+            surface,
+            found,
+            context,
+            size,
+            view: None,
+            name: String::new(),
+            taken: None,
+            held: Vec::new(),
+            asked: None,
+        })
+    }
+    /// Holds a file, in the place of an earlier one of its name.
+    pub fn hold(&mut self, name: String, bytes: Vec<u8>) {
+        self.held.retain(|(known, _)| *known != name);
+        self.held.push((name, bytes));
     }
     /// Opens a scene in the place of the present one, which goes on where there are faults. Returns remarks on it.
     pub async fn load(&mut self, wanted: &Wanted) -> Result<Vec<String>, String> {
         let options = Options { most_particles: MOST, ..Options::default() };
         let words = |error: Error| error.to_string();
-        let read = |overrides: &[String]| {
-            Scene::load(&wanted.source, overrides, &options).map_err(|faults| faults.to_string())
+        let source = match &wanted.source {
+            Source::Memory { name, text, files } => {
+                let held = self.held.iter().filter(|(name, _)| files.iter().all(|(known, _)| known != name));
+                let files = files.iter().chain(held).cloned().collect();
+                Source::Memory { name: name.clone(), text: text.clone(), files }
+            }
+            other => other.clone(),
         };
+        let read =
+            |overrides: &[String]| Scene::load(&source, overrides, &options).map_err(|faults| faults.to_string());
         let mut overrides = wanted.overrides.clone();
         let mut scene = read(&overrides)?;
         if let Some(factor) = wanted.scale {

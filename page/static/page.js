@@ -1,5 +1,5 @@
 // The page about the canvas: scenes, the editor, links. What runs on the canvas is `motes.js`.
-import init, { Viewer, builtIn } from "./motes.js";
+import init, { Viewer, builtIn, withFile } from "./motes.js";
 
 const at = (id) => document.getElementById(id);
 /** The built-in scenes by their names: their texts, and the files that they name. */
@@ -182,6 +182,7 @@ const address = async () => {
 at("link").onclick = async () => {
   const url = await address();
   if (!url) return shown("this scene is too long for a link: save it as a file", true);
+  if ([...held].some((name) => open.text.includes(name))) return shown("a link does not carry files of particles: save the scene, and keep them beside it", true);
   history.replaceState(null, "", url);
   await navigator.clipboard?.writeText(url).then(() => shown("the link is on the clipboard"), () => shown("the link stands in the address"));
 };
@@ -210,7 +211,9 @@ const hang = () => {
   at("cards").replaceChildren(...mine, ...[...scenes].map(([name, { text }]) => card(name, name, text, `#scene=${name}`)));
 };
 
-/** Files that are dropped: a scene is run, others stand beside it. */
+/** Files of bytes that were dropped: their names. They are in no link. */
+const held = new Set();
+/** Files that are dropped: a scene is run; particles take the place of those of the present scene, a law is one more force; others stand beside it. */
 document.addEventListener("dragover", (event) => event.preventDefault());
 document.addEventListener("drop", async (event) => {
   event.preventDefault();
@@ -218,13 +221,31 @@ document.addEventListener("drop", async (event) => {
   if (!files.length) return;
   let next = { ...open, files: new Map(open.files), own: true };
   for (const file of files) {
-    const text = await file.text();
-    if (file.name.endsWith(".toml")) next = { ...next, name: file.name.replace(/\.toml$/, ""), text, overrides: [], scale: undefined };
-    else next.files.set(file.name, text);
+    if (file.name.endsWith(".toml")) {
+      next = { ...next, name: file.name.replace(/\.toml$/, ""), text: await file.text(), overrides: [], scale: undefined };
+    }
+  }
+  let why = "";
+  for (const file of files.filter((file) => !file.name.endsWith(".toml"))) {
+    const isLaw = /\.wgsl$/i.test(file.name);
+    let text;
+    try {
+      text = withFile(next.text, file.name, isLaw ? await file.text() : "");
+    } catch (other) {
+      why = other.message;
+    }
+    if (text === undefined || isLaw) {
+      next.files.set(file.name, await file.text());
+    } else if (viewer) {
+      await viewer.hold(file.name, new Uint8Array(await file.arrayBuffer()));
+      held.add(file.name);
+    }
+    next.text = text ?? next.text;
   }
   toggle(true);
   await run(next);
   keep();
+  if (why && at("faults").hidden) say(why, true);
 });
 
 /** The keys of the browser stay its own: reload, find, address, full screen. */

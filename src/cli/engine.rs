@@ -86,17 +86,21 @@ pub fn load(args: &SceneArgs) -> Result<Scene, Failure> {
 
 /// The same with additional overrides.
 pub fn load_with(args: &SceneArgs, more: &[String]) -> Result<Scene, Failure> {
+    load_from(&Source::find(&args.scene)?, args, more)
+}
+
+/// The same from another source.
+pub fn load_from(source: &Source, args: &SceneArgs, more: &[String]) -> Result<Scene, Failure> {
     let mut overrides = args.overrides.clone();
     overrides.extend_from_slice(more);
     overrides.extend(args.steps.map(|n| format!("simulation.steps={n}")));
     overrides.extend(args.until.map(|t| format!("simulation.until={t:?}")));
     let options = Options { allow_outside: args.allow_outside, ..Options::default() };
-    let source = Source::find(&args.scene)?;
-    let scene = Scene::load(&source, &overrides, &options)?;
+    let scene = Scene::load(source, &overrides, &options)?;
     let Some(factor) = args.scale else { return Ok(scene) };
     let scaled = scene.scaled(factor)?;
     overrides.extend_from_slice(&scaled);
-    let mut scene = Scene::load(&source, &overrides, &options)?;
+    let mut scene = Scene::load(source, &overrides, &options)?;
     scene.remarks.push(format!("--scale {factor} sets {}", scaled.join(", ")));
     Ok(scene)
 }

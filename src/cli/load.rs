@@ -1,7 +1,7 @@
 //! Loads the scene of the arguments, examines its stability, and divides its steps if requested.
 
 use motes::diagnose::{Judged, Remark, culprit, limit, others, unsafe_steps};
-use motes::scene::Scene;
+use motes::scene::{Scene, Source};
 use motes::sph::Start;
 use motes::stability::Verdict;
 use motes::{Error, Setup};
@@ -26,13 +26,11 @@ pub struct Loaded {
 /// Loads the scene of the arguments with additional overrides; `--auto-substeps` divides its steps so that its springs are stable.
 pub async fn load(args: &SceneArgs, more: &[String]) -> Result<Loaded, Failure> {
     let mut loaded = judge(engine::load_with(args, more)?).await?;
+    if !args.auto_substeps {
+        return Ok(loaded.with_unsafe_steps());
+    }
     let (dt, steps, every) = (loaded.scene.dt, loaded.scene.steps, loaded.scene.output.every);
     let parts = loaded.verdict.map_or(Some(1), |verdict| verdict.substeps(dt));
-    if !args.auto_substeps {
-        let words = loaded.verdict.and_then(|verdict| unsafe_steps(&verdict, &loaded.setup));
-        loaded.scene.remarks.extend(words.map(|words| words.to_string()));
-        return Ok(loaded);
-    }
     let text = match (loaded.verdict, parts) {
         (None, _) => "--auto-substeps depends on springs, and there are none: dt is unchanged".to_owned(),
         (Some(verdict), Some(1)) => {
@@ -82,6 +80,20 @@ pub async fn load(args: &SceneArgs, more: &[String]) -> Result<Loaded, Failure> 
     };
     loaded.scene.remarks.push(text);
     Ok(loaded)
+}
+
+/// Loads a scene of another source with the same arguments.
+pub async fn load_from(source: &Source, args: &SceneArgs) -> Result<Loaded, Failure> {
+    Ok(judge(engine::load_from(source, args, &[])?).await?.with_unsafe_steps())
+}
+
+impl Loaded {
+    /// With a remark where steps are too long for its springs.
+    fn with_unsafe_steps(mut self) -> Self {
+        let words = self.verdict.and_then(|verdict| unsafe_steps(&verdict, &self.setup));
+        self.scene.remarks.extend(words.map(|words| words.to_string()));
+        self
+    }
 }
 
 /// Examines a loaded scene.

@@ -1,9 +1,8 @@
 //! Numbers in binary files, of either byte order, with checks of the length.
 
 use std::io::Read;
-use std::path::Path;
 
-use super::{input, open};
+use super::{Input, input};
 use crate::error::Error;
 
 /// A type of number.
@@ -64,8 +63,8 @@ fn word<const N: usize>(bytes: &[u8]) -> [u8; N] {
 }
 
 /// All bytes of a file: as many as are read, not as many as its metadata states.
-pub(super) fn bytes_of(path: &Path) -> Result<Vec<u8>, Error> {
-    let (mut file, _) = open(path)?;
+pub(super) fn bytes_of(path: &Input<'_>) -> Result<Vec<u8>, Error> {
+    let (mut file, _) = path.open()?;
     let mut bytes = Vec::new();
     file.read_to_end(&mut bytes).map_err(|error| input(path, error.to_string()))?;
     Ok(bytes)

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use super::{input, of};
+use super::{Input, input, of};
 use crate::error::Error;
 use crate::kernel::{Bounds, Column, Columns, Kind};
 
@@ -37,7 +37,7 @@ pub struct Heading {
 /// [`Error::Input`] as for [`read`](super::read).
 pub fn contents(path: &Path) -> Result<Contents, Error> {
     match of(path)? {
-        Some(format) => (format.contents)(path),
+        Some(format) => (format.contents)(&Input::disk(path)),
         None => Err(input(path, "is not of a known format")),
     }
 }

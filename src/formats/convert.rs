@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use super::{Format, Options, Precision, by_ending, contents, input, known, of, read, verified};
+use super::{Format, Input, Options, Precision, by_ending, contents, input, known, of, read, verified};
 use crate::error::Error;
 use crate::kernel::Array;
 use crate::state::State;
@@ -51,6 +51,7 @@ pub fn convert(from: &Path, to: &Path, precision: Option<Precision>) -> Result<C
         |out| write(out, &state, &options),
         |temporary| {
             let back = || -> Result<_, Error> {
+                let temporary = &Input::disk(temporary);
                 let after = (format.contents)(temporary)?;
                 let columns = known(&after);
                 let state = format.read.map(|read| read(temporary, &columns)).transpose()?;

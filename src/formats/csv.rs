@@ -7,7 +7,6 @@
 
 use std::fmt::Write as _;
 use std::io::{self, Write};
-use std::path::Path;
 
 use ::csv::ByteRecord;
 use rayon::prelude::*;
@@ -16,7 +15,7 @@ use super::line::Line;
 use super::problems::{Problems, order, ordered};
 use super::rows::{self, Opened};
 use super::titles::{self, Strip, Title};
-use super::{Contents, Format, Heading, Precision, input, open};
+use super::{Contents, Format, Heading, Input, Precision, input};
 use crate::error::Error;
 use crate::kernel::{Columns, Kind};
 use crate::state::State;
@@ -45,8 +44,8 @@ const NAME: &str = "name";
 /// # Errors
 /// [`Error::Input`] that lists, with line and column, every cell that is missing, no number, not finite, or negative where
 /// that makes no sense; every column that is unknown, missing or given twice; every id that is given twice.
-pub fn read(path: &Path, columns: &Columns) -> Result<State, Error> {
-    let (file, _) = open(path)?;
+pub fn read(path: &Input<'_>, columns: &Columns) -> Result<State, Error> {
+    let (file, _) = path.open()?;
     let mut problems = Problems::default();
     let mut record = ByteRecord::new();
     let failed = |error: io::Error| input(path, error.to_string());
@@ -95,8 +94,8 @@ pub fn read(path: &Path, columns: &Columns) -> Result<State, Error> {
     })
 }
 
-fn contents(path: &Path) -> Result<Contents, Error> {
-    let (file, _) = open(path)?;
+fn contents(path: &Input<'_>) -> Result<Contents, Error> {
+    let (file, _) = path.open()?;
     let mut record = ByteRecord::new();
     let failed = |error: io::Error| input(path, error.to_string());
     let Opened { mut rows, titles, .. } = rows::open(file).map_err(failed)?;

@@ -3,11 +3,10 @@
 //!
 //! The type of a particle is its species. Numbers stay in the units of the file, which are comoving where it is cosmological.
 
-use std::path::Path;
 
 use super::binary::{Type, bytes_of};
 use super::sheet::{self, ID, Place, Sheet};
-use super::{Format, input};
+use super::{Format, Input, input};
 use crate::error::Error;
 use crate::kernel::{Bounds, Columns, Side};
 use crate::state::State;
@@ -61,7 +60,7 @@ fn order(start: &[u8]) -> Option<Order> {
 /// # Errors
 /// [`Error::Input`] with the byte of a record that is truncated or has a length other than that of its particles, or of an invalid number;
 /// a file that is a part of a set.
-pub fn read(path: &Path, columns: &Columns) -> Result<State, Error> {
+pub fn read(path: &Input<'_>, columns: &Columns) -> Result<State, Error> {
     sheet::read(path, columns, sheet)
 }
 
@@ -71,7 +70,7 @@ struct Record {
     length: usize,
 }
 
-fn sheet(path: &Path, wanted: &dyn Fn(&str) -> bool) -> Result<Sheet, Error> {
+fn sheet(path: &Input<'_>, wanted: &dyn Fn(&str) -> bool) -> Result<Sheet, Error> {
     let bytes = bytes_of(path)?;
     parsed(&bytes, wanted).map_err(|message| input(path, message))
 }

@@ -9,14 +9,14 @@
 
 use std::collections::{BTreeMap, HashMap};
 use std::io::{self, Write};
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use hdf5_pure::{AttrValue, DType, Dataset, DatasetBuilder, File, FileBuilder, FormatError, Group};
 
 use super::binary::single;
 use super::sheet::{self, Place, Sheet};
 use super::titles::{self, Field, Number};
-use super::{Format, Options, Precision, input};
+use super::{Format, Input, Options, Precision, input, set};
 use crate::error::Error;
 use crate::kernel::{Bounds, Columns, Side};
 use crate::state::State;
@@ -170,7 +170,7 @@ fn whole(field: &Field<'_>, rows: &[usize]) -> Vec<u32> {
 /// # Errors
 /// [`Error::Input`] with the part that is not HDF5, truncated, missing, of a length other than that of `Coordinates`, not numeric, or
 /// invalid; a missing part of a set.
-pub fn read(path: &Path, columns: &Columns) -> Result<State, Error> {
+pub fn read(path: &Input<'_>, columns: &Columns) -> Result<State, Error> {
     sheet::read(path, columns, sheet)
 }
 
@@ -192,19 +192,22 @@ struct Gathered {
     massless: Option<String>,
 }
 
-fn sheet(path: &Path, wanted: &dyn Fn(&str) -> bool) -> Result<Sheet, Error> {
+fn sheet(path: &Input<'_>, wanted: &dyn Fn(&str) -> bool) -> Result<Sheet, Error> {
     let mut gathered = Gathered::default();
     let parts = gathered.file(path, wanted)?;
     if parts > 1 {
+        if path.bytes().is_some() {
+            return Err(input(path, format!("is one of {parts} files: a set is read from a folder, not from memory")));
+        }
         gathered = Gathered::default();
-        let (before, after) = split(path).ok_or_else(|| {
+        let (before, after) = set::split(path).ok_or_else(|| {
             input(path, format!("is one of {parts} files, and its name has no number, as in snapshot_007.0.hdf5"))
         })?;
         let mut of = None;
         for part in 0..parts {
             let file = PathBuf::from(format!("{before}.{part}.{after}"));
-            beside(path, &file)?;
-            let (there, step) = (gathered.file(&file, wanted)?, gathered.moment.clone());
+            set::beside(path, &file)?;
+            let (there, step) = (gathered.file(&Input::disk(&file), wanted)?, gathered.moment.clone());
             if there != parts {
                 return Err(input(&file, format!("is one of {there} files, and {} of {parts}", path.display())));
             }
@@ -239,24 +242,6 @@ fn sheet(path: &Path, wanted: &dyn Fn(&str) -> bool) -> Result<Sheet, Error> {
     Ok(sheet)
 }
 
-/// Refuses a part outside the folder of the file that was named, such as through a link: only that folder may be read.
-fn beside(named: &Path, part: &Path) -> Result<(), Error> {
-    let real = |path: &Path| std::fs::canonicalize(path).map_err(|why| input(path, why.to_string()));
-    let (named, real) = (real(named)?, real(part)?);
-    if named.parent().is_some_and(|folder| real.starts_with(folder)) {
-        return Ok(());
-    }
-    Err(input(part, "is a part of a set, and a link leads outside of the set's folder: put all parts into one folder"))
-}
-
-/// The text before and after the number of a part: `snapshot_007`, `hdf5`.
-fn split(path: &Path) -> Option<(String, String)> {
-    let (stem, ending) = path.to_str()?.rsplit_once('.')?;
-    let (before, number) = stem.rsplit_once('.')?;
-    number.parse::<u32>().ok()?;
-    Some((before.to_owned(), ending.to_owned()))
-}
-
 impl Gathered {
     /// Compares the number of particles in all files of a set with the totals in the header, if it has them.
     fn complete(&self) -> Result<(), String> {
@@ -274,10 +259,14 @@ impl Gathered {
         Ok(())
     }
     /// Adds the groups of a file; returns the number of files in the set.
-    fn file(&mut self, path: &Path, wanted: &dyn Fn(&str) -> bool) -> Result<u32, Error> {
-        let (_, length) = super::open(path)?;
+    fn file(&mut self, path: &Input<'_>, wanted: &dyn Fn(&str) -> bool) -> Result<u32, Error> {
+        let (_, length) = path.open()?;
         let refuse = |why: hdf5_pure::Error| input(path, format!("cannot be read as HDF5: {why}"));
-        let file = File::open(path).map_err(refuse)?;
+        let file = match path.bytes() {
+            Some(bytes) => File::from_bytes(bytes.to_vec()),
+            None => File::open(&**path),
+        };
+        let file = file.map_err(refuse)?;
         let root = file.root();
         // By name: listing all groups fails at soft links, which SWIFT writes.
         let group = |name: &str| match root.group(name) {
@@ -483,16 +472,4 @@ fn bounds(header: &HashMap<String, AttrValue>) -> Option<Bounds> {
     };
     let is_one = size.iter().all(|length| length.is_finite() && *length > 0.0);
     is_one.then_some(Bounds { low: [0.0; 3].into(), high: size.into(), sides: [Side::Periodic; 3], dimensions: 3 })
-}
-
-#[cfg(test)]
-mod tests {
-    use super::split;
-
-    #[test]
-    fn parts_of_a_set_are_numbered_before_the_ending() {
-        let of = |name: &str| split(std::path::Path::new(name));
-        assert_eq!(of("a/snap_7.0.hdf5"), Some(("a/snap_7".to_owned(), "hdf5".to_owned())));
-        assert_eq!((of("snap.hdf5"), of("a.b.hdf5")), (None, None));
-    }
 }

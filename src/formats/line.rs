@@ -1,30 +1,33 @@
 //! The numbers of lines for messages about CSV files.
 
 use std::fmt;
-use std::fs::File;
-use std::io::{self, BufRead, BufReader, Seek, SeekFrom};
-use std::path::Path;
+use std::io::{self, BufRead, Seek, SeekFrom};
 
 use ::csv::ByteRecord;
+
+use super::Input;
 
 /// The position of a row. Its line number is only counted when it is shown: `csv` provides the end of the previous row, but not the number
 /// of blank lines and comments skipped since.
 #[derive(Clone, Copy)]
 pub(super) struct Line<'a> {
-    path: &'a Path,
+    path: &'a Input<'a>,
     byte: u64,
     before: u64,
 }
 
 impl<'a> Line<'a> {
-    pub(super) fn of(path: &'a Path, record: &ByteRecord) -> Self {
+    pub(super) fn of(path: &'a Input<'a>, record: &ByteRecord) -> Self {
         let (byte, before) = record.position().map_or((0, 1), |start| (start.byte(), start.line()));
         Self { path, byte, before }
     }
 
     /// Its number, counted from 1.
     fn number(&self) -> io::Result<u64> {
-        let mut file = BufReader::new(File::open(self.path)?);
+        let mut file = match self.path.open() {
+            Ok((file, _)) => file,
+            Err(why) => return Err(io::Error::other(why)),
+        };
         file.seek(SeekFrom::Start(self.byte))?;
         let mut number = self.before;
         let mut line = Vec::new();

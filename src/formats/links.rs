@@ -3,14 +3,13 @@
 
 use std::collections::BTreeMap;
 use std::io::{self, Write};
-use std::path::Path;
 
 use ::csv::{ByteRecord, ReaderBuilder, Trim};
 use glam::DVec3;
 
 use super::line::Line;
 use super::problems::Problems;
-use super::{input, open};
+use super::{Input, input};
 use crate::error::Error;
 use crate::kernel::Bounds;
 use crate::links::{Link, Links, Rod};
@@ -71,8 +70,8 @@ const COLUMNS: [&str; 6] = ["a", "b", "rest", "stiffness", "damping", "tie"];
 /// # Errors
 /// [`Error::Input`] that lists all faults with their lines: unknown columns, cells that are not numbers or are negative, unknown ids, links
 /// of a particle with itself, and duplicate links.
-pub fn read(path: &Path, positions: &[DVec3], bounds: &Bounds, usual: &Usual) -> Result<Links, Error> {
-    let (file, _) = open(path)?;
+pub fn read(path: &Input<'_>, positions: &[DVec3], bounds: &Bounds, usual: &Usual) -> Result<Links, Error> {
+    let (file, _) = path.open()?;
     let mut rows =
         ReaderBuilder::new().comment(Some(b'#')).flexible(true).trim(Trim::All).has_headers(false).from_reader(file);
     let failed = |error: ::csv::Error| input(path, error.to_string());

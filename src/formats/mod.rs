@@ -9,6 +9,7 @@ mod archive;
 mod atomic;
 mod binary;
 mod blocks;
+mod bytes;
 mod collection;
 mod contents;
 mod convert;
@@ -18,16 +19,18 @@ pub mod links;
 mod npy;
 mod problems;
 mod rows;
+mod set;
 mod sheet;
 mod tags;
 mod titles;
 
 use std::fs::File;
-use std::io::{self, BufReader, BufWriter, Read};
+use std::io::{self, BufWriter, Read};
 use std::path::Path;
 
 pub use self::atomic::atomically;
 use self::atomic::verified;
+pub use self::bytes::Input;
 pub use self::contents::{Contents, Heading, contents, known};
 pub use self::convert::{Converted, convert};
 use crate::error::Error;
@@ -106,7 +109,7 @@ pub struct Format {
     /// Whether a file that begins with these bytes has this format, if the extension does not determine it.
     pub begins: fn(&[u8]) -> bool,
     /// The contents of a file, without its numbers.
-    pub contents: fn(&Path) -> Result<Contents, Error>,
+    pub contents: fn(&Input<'_>) -> Result<Contents, Error>,
     /// Reads a state of these columns, if the format can be read.
     pub read: Option<Reader>,
     /// Writes a state, if the format can hold states without loss.
@@ -120,7 +123,7 @@ pub struct Format {
 }
 
 /// Reads a state of these columns from a file.
-pub type Reader = fn(&Path, &Columns) -> Result<State, Error>;
+pub type Reader = fn(&Input<'_>, &Columns) -> Result<State, Error>;
 /// Writes a state into a file.
 pub type Writer = fn(&mut BufWriter<File>, &State, &Options) -> io::Result<()>;
 
@@ -163,7 +166,15 @@ pub fn format(name: &str) -> Option<&'static Format> {
 /// # Errors
 /// [`Error::Input`], with the file and the line or byte offset of all of its faults.
 pub fn read(path: &Path, columns: &Columns) -> Result<State, Error> {
-    let Some((format, read)) = of(path)?.and_then(|format| Some((format, format.read?))) else {
+    read_from(&Input::disk(path), columns)
+}
+
+/// The same from a file that may be in memory.
+///
+/// # Errors
+/// As for [`read`].
+pub fn read_from(path: &Input<'_>, columns: &Columns) -> Result<State, Error> {
+    let Some((format, read)) = kind_of(path)?.and_then(|format| Some((format, format.read?))) else {
         return Err(input(path, "is not of a known format"));
     };
     let mut state = read(path, columns)?;
@@ -184,6 +195,11 @@ pub fn read(path: &Path, columns: &Columns) -> Result<State, Error> {
 /// # Errors
 /// [`Error::Input`] when the file cannot be read.
 pub fn of(path: &Path) -> Result<Option<&'static Format>, Error> {
+    kind_of(&Input::disk(path))
+}
+
+/// The same of a file that may be in memory.
+fn kind_of(path: &Input<'_>) -> Result<Option<&'static Format>, Error> {
     let named = by_ending(path);
     if named.is_some() { Ok(named) } else { by_beginning(path) }
 }
@@ -196,9 +212,9 @@ pub fn by_ending(path: &Path) -> Option<&'static Format> {
 }
 
 /// The format of a file, by its first bytes.
-fn by_beginning(path: &Path) -> Result<Option<&'static Format>, Error> {
+fn by_beginning(path: &Input<'_>) -> Result<Option<&'static Format>, Error> {
     let mut start = Vec::new();
-    let (file, _) = open(path)?;
+    let (file, _) = path.open()?;
     file.take(512).read_to_end(&mut start).map_err(|error| input(path, error.to_string()))?;
     Ok(FORMATS.iter().find(|format| (format.begins)(&start)))
 }
@@ -212,19 +228,4 @@ fn shortened(text: &str) -> String {
 /// An [`Error::Input`] about a whole file.
 fn input(path: &Path, message: impl Into<String>) -> Error {
     Error::Input { file: path.to_owned(), message: message.into() }
-}
-
-/// A file, and its length in bytes.
-fn open(path: &Path) -> Result<(BufReader<File>, u64), Error> {
-    let failed = |error: io::Error| input(path, error.to_string());
-    // Before it is opened: opening a pipe waits for its other end.
-    let data = std::fs::metadata(path).map_err(failed)?;
-    if data.is_dir() {
-        return Err(input(path, "is a folder, not a file of particles"));
-    }
-    if !data.is_file() {
-        return Err(input(path, "is not a regular file: files are read more than once, so copy it into one"));
-    }
-    let file = File::open(path).map_err(failed)?;
-    Ok((BufReader::with_capacity(1 << 16, file), data.len()))
 }

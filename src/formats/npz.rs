@@ -5,7 +5,6 @@
 //! `numpy.load("snapshot.npz")["x"]` is the array of x by id.
 
 use std::io::{self, BufWriter, Seek, Write};
-use std::path::Path;
 
 use npyz::npz::NpzWriter;
 use npyz::zip::write::FileOptions;
@@ -15,7 +14,7 @@ use npyz::{AutoSerialize, Serialize, WriterBuilder};
 use super::archive::Arrays;
 use super::problems::{Problems, order, ordered};
 use super::titles::{self, Number, Strip, Title};
-use super::{Contents, Format, Heading, Precision, input, open};
+use super::{Contents, Format, Heading, Input, Precision, input};
 use crate::error::Error;
 use crate::kernel::{Array, Column, Columns, Kind, Shape};
 use crate::state::{KEPT, KEPT_NEXT, State};
@@ -43,8 +42,8 @@ const PIECE: usize = 1 << 16;
 /// # Errors
 /// [`Error::Input`] that lists every array that is missing, unknown, of another length than `x`, larger than the file can
 /// hold, not of numbers, not finite, or negative where that makes no sense; and every id that is given twice.
-pub fn read(path: &Path, columns: &Columns) -> Result<State, Error> {
-    let (file, _) = open(path)?;
+pub fn read(path: &Input<'_>, columns: &Columns) -> Result<State, Error> {
+    let (file, _) = path.open()?;
     let known = titles::all(columns);
     let system = || columns.iter().filter(|column| matches!(column.shape, Shape::System(_)));
     let others: Vec<&str> = system().map(|column| column.name.as_ref()).collect();
@@ -97,8 +96,8 @@ pub fn read(path: &Path, columns: &Columns) -> Result<State, Error> {
 }
 
 /// The names of arrays, except restart data.
-fn contents(path: &Path) -> Result<Contents, Error> {
-    let (file, _) = open(path)?;
+fn contents(path: &Input<'_>) -> Result<Contents, Error> {
+    let (file, _) = path.open()?;
     let mut archive = npyz::npz::NpzArchive::new(file).map_err(|error| input(path, error.to_string()))?;
     let mut names: Vec<String> = archive.array_names().map(str::to_owned).collect();
     names.retain(|name| !name.starts_with(KEPT) && !["time", "step"].contains(&name.as_str()));

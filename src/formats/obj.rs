@@ -6,14 +6,13 @@
 
 use std::fmt::Write as _;
 use std::io::{self, Write};
-use std::path::Path;
 
 use super::binary::bytes_of;
 use super::contents::counted;
 use super::problems::Problems;
 use super::sheet::{self, List, Place, Sheet};
 use super::titles;
-use super::{Format, Heading, Options, input, shortened};
+use super::{Format, Heading, Input, Options, input, shortened};
 use crate::error::Error;
 use crate::kernel::Columns;
 use crate::state::State;
@@ -87,11 +86,11 @@ pub fn write_obj(mut out: impl Write, state: &State, options: &Options) -> io::R
 ///
 /// # Errors
 /// [`Error::Input`] with the line of an invalid vertex, and for a truncated file of motes.
-pub fn read(path: &Path, columns: &Columns) -> Result<State, Error> {
+pub fn read(path: &Input<'_>, columns: &Columns) -> Result<State, Error> {
     sheet::read(path, columns, sheet)
 }
 
-fn sheet(path: &Path, wanted: &dyn Fn(&str) -> bool) -> Result<Sheet, Error> {
+fn sheet(path: &Input<'_>, wanted: &dyn Fn(&str) -> bool) -> Result<Sheet, Error> {
     let bytes = bytes_of(path)?;
     let text = std::str::from_utf8(&bytes)
         .map_err(|why| input(path, format!("byte {}: is no text in UTF-8", why.valid_up_to())))?;

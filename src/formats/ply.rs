@@ -7,13 +7,12 @@
 
 use std::fmt::Write as _;
 use std::io::{self, Write};
-use std::path::Path;
 
 use super::binary::{Type, bytes_of, single};
 use super::contents::counted;
 use super::sheet::{self, ID, Place, Sheet};
 use super::titles::{self, Number};
-use super::{Format, Options, Precision, input, shortened};
+use super::{Format, Input, Options, Precision, input, shortened};
 use crate::error::Error;
 use crate::kernel::{Bounds, Columns, Side};
 use crate::state::State;
@@ -92,7 +91,7 @@ pub fn write_ply(mut out: impl Write, state: &State, options: &Options) -> io::R
 ///
 /// # Errors
 /// [`Error::Input`] with the line of an invalid header, or the byte of truncated, missing, non-numeric or invalid data.
-pub fn read(path: &Path, columns: &Columns) -> Result<State, Error> {
+pub fn read(path: &Input<'_>, columns: &Columns) -> Result<State, Error> {
     sheet::read(path, columns, sheet)
 }
 
@@ -130,7 +129,7 @@ struct Header {
 /// The longest header \[bytes\].
 const LONGEST: usize = 1 << 20;
 
-fn sheet(path: &Path, wanted: &dyn Fn(&str) -> bool) -> Result<Sheet, Error> {
+fn sheet(path: &Input<'_>, wanted: &dyn Fn(&str) -> bool) -> Result<Sheet, Error> {
     let bytes = bytes_of(path)?;
     let refuse = |message: String| input(path, message);
     let header = header(&bytes).map_err(refuse)?;

@@ -1,9 +1,7 @@
 //! Lists of numbers of a binary file, one for each title, before they become a state.
 
-use std::path::Path;
-
 use super::problems::{Problems, order, ordered};
-use super::{Contents, Heading, titles};
+use super::{Contents, Heading, Input, titles};
 use crate::error::Error;
 use crate::kernel::{Column, Columns, Kind};
 use crate::state::State;
@@ -50,9 +48,9 @@ pub(super) const ID: &str = "id";
 
 /// Reads a state of these columns with a function that reads the requested lists. Lists without a column are skipped.
 pub(super) fn read(
-    path: &Path,
+    path: &Input<'_>,
     columns: &Columns,
-    sheet: impl FnOnce(&Path, &dyn Fn(&str) -> bool) -> Result<Sheet, Error>,
+    sheet: impl FnOnce(&Input<'_>, &dyn Fn(&str) -> bool) -> Result<Sheet, Error>,
 ) -> Result<State, Error> {
     let known = titles::all(columns);
     let wanted = |title: &str| title == ID || known.iter().any(|known| known.text == title);

@@ -6,12 +6,11 @@
 //! not read.
 
 use std::io::{self, Read, Write};
-use std::path::Path;
 
 use glam::DVec3;
 
 use super::problems::Problems;
-use super::{Contents, Format, Heading, input, open};
+use super::{Contents, Format, Heading, Input, input};
 use crate::error::Error;
 use crate::state::State;
 
@@ -82,8 +81,8 @@ fn array<const N: usize>(bytes: &[u8], at: usize) -> [u8; N] {
 /// # Errors
 /// [`Error::Input`] with byte offsets: a file shorter than its header, no byte order in which `ndim` is 1 to 3, counts that do
 /// not add up or do not fit the file's size (found before memory is reserved), numbers that are not finite, negative masses.
-pub fn read(path: &Path) -> Result<State, Error> {
-    let (mut file, length) = open(path)?;
+pub fn read(path: &Input<'_>) -> Result<State, Error> {
+    let (mut file, length) = path.open()?;
     let failed = |error: io::Error| input(path, error.to_string());
     let mut header = [0; HEADER];
     if length < HEADER as u64 {

@@ -5,7 +5,6 @@
 //! programs write is read too: appended raw, in base 64 or as text, also compressed with zlib. Lines and polygons are not read.
 
 use std::io::{self, Write};
-use std::path::Path;
 
 use super::binary::{Type, bytes_of, single};
 use super::blocks::{Coding, ZLIB, packed};
@@ -13,7 +12,7 @@ use super::contents::counted;
 use super::sheet::{self, ID, Place, Sheet};
 use super::tags::{Tag, base64};
 use super::titles::{self, Field, Number};
-use super::{Format, Options, Precision, input, shortened};
+use super::{Format, Input, Options, Precision, input, shortened};
 use crate::error::Error;
 use crate::kernel::{Bounds, Columns, Side};
 use crate::state::State;
@@ -208,7 +207,7 @@ pub fn write_vtp(mut out: impl Write, state: &State, options: &Options) -> io::R
 ///
 /// # Errors
 /// [`Error::Input`] with the byte of an invalid tag, of a truncated array, or of an invalid number; a compression other than zlib.
-pub fn read(path: &Path, columns: &Columns) -> Result<State, Error> {
+pub fn read(path: &Input<'_>, columns: &Columns) -> Result<State, Error> {
     sheet::read(path, columns, sheet)
 }
 
@@ -233,7 +232,7 @@ enum Section {
     Other,
 }
 
-fn sheet(path: &Path, wanted: &dyn Fn(&str) -> bool) -> Result<Sheet, Error> {
+fn sheet(path: &Input<'_>, wanted: &dyn Fn(&str) -> bool) -> Result<Sheet, Error> {
     let bytes = bytes_of(path)?;
     parsed(&bytes, wanted).map_err(|message| input(path, message))
 }

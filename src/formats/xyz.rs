@@ -7,13 +7,11 @@
 //! `Lattice`, `Origin` and `pbc` are the box, where it is closed along every axis. Format: the specification of libAtoms (extxyz).
 
 use std::fmt::Write as _;
-use std::fs::File;
-use std::io::{self, BufRead, BufReader, Write};
-use std::path::Path;
+use std::io::{self, BufRead, Write};
 
 use super::problems::{Problems, order, ordered};
 use super::titles;
-use super::{Contents, Format, Heading, Options, input, open, sheet};
+use super::{Contents, Format, Heading, Input, Options, input, sheet};
 use crate::error::Error;
 use crate::kernel::{Bounds, Column, Columns, Side};
 use crate::state::State;
@@ -121,8 +119,8 @@ pub fn write_xyz(mut out: impl Write, state: &State, options: &Options) -> io::R
 }
 
 /// The headings of the second line, and the box.
-fn contents(path: &Path) -> Result<Contents, Error> {
-    let (file, _) = open(path)?;
+fn contents(path: &Input<'_>) -> Result<Contents, Error> {
+    let (file, _) = path.open()?;
     let failed = |error: io::Error| input(path, error.to_string());
     let mut lines = Lines { file, line: Vec::new() };
     let count = lines.next().map_err(failed)?.unwrap_or_default();
@@ -167,8 +165,8 @@ struct Property {
 /// # Errors
 /// [`Error::Input`] that lists all faults with their lines: a count that is invalid or not that of the lines, properties that are unknown,
 /// of another width or kind than their column, or given twice, invalid numbers, a second frame.
-pub fn read(path: &Path, columns: &Columns) -> Result<State, Error> {
-    let (file, _) = open(path)?;
+pub fn read(path: &Input<'_>, columns: &Columns) -> Result<State, Error> {
+    let (file, _) = path.open()?;
     let failed = |error: io::Error| input(path, error.to_string());
     let mut lines = Lines { file, line: Vec::new() };
     let count = lines.next().map_err(failed)?.map(|text| text.trim().to_owned()).unwrap_or_default();
@@ -275,12 +273,12 @@ fn divide(given: &mut [Option<Vec<f64>>], known: &[titles::Title<'_>], problems:
 }
 
 /// The lines of a file. Invalid UTF-8 is replaced by replacement characters.
-struct Lines {
-    file: BufReader<File>,
+struct Lines<R> {
+    file: R,
     line: Vec<u8>,
 }
 
-impl Lines {
+impl<R: BufRead> Lines<R> {
     fn next(&mut self) -> io::Result<Option<String>> {
         self.line.clear();
         let some = self.file.read_until(b'\n', &mut self.line)? > 0;

@@ -17,7 +17,7 @@ use toml::{Table as Toml, Value};
 use super::packed::{FROM, Packed};
 use super::table::Lengths;
 use crate::error::Error;
-use crate::formats::{Precision, atomically, npz};
+use crate::formats::{Input, Precision, atomically, npz};
 use crate::kernel::Columns;
 use crate::life::Life;
 use crate::render::Exposure;
@@ -192,12 +192,12 @@ impl Checkpoint {
     }
     /// Its state, with these columns.
     pub(super) fn state(&self, columns: &Columns) -> Result<State, Error> {
-        npz::read(&self.file, columns)
+        npz::read(&Input::disk(&self.file), columns)
     }
     /// The state for which the camera of the film was set up, if there is one.
     pub(super) fn film(&self, columns: &Columns) -> Result<Option<State>, Error> {
         let file = self.folder().join(FILM);
-        let mut state = file.exists().then(|| npz::read(&file, columns)).transpose()?;
+        let mut state = file.exists().then(|| npz::read(&Input::disk(&file), columns)).transpose()?;
         if let Some(state) = state.as_mut().filter(|state| self.past.film.life && state.life().is_empty()) {
             state.set_life(0, Life::Active);
         }

@@ -6,6 +6,7 @@ use std::path::{Component, Path, PathBuf};
 
 use super::report::{Fault, Place, nearest, shorten};
 use super::source::{Opened, shorten_path};
+use crate::formats::Input;
 
 /// The longest shader \[bytes\].
 const LONGEST_SHADER: u64 = 1 << 20;
@@ -20,7 +21,7 @@ pub(super) struct Files {
     /// The files that were found, by absolute paths.
     read: RefCell<Vec<PathBuf>>,
     folder: Option<PathBuf>,
-    embedded: Vec<(String, String)>,
+    embedded: Vec<(String, Vec<u8>)>,
     allow_outside: bool,
 }
 
@@ -29,7 +30,7 @@ pub(super) enum Located {
     /// On the disk; with the name that the resolved scene gives it.
     Disk { path: PathBuf, name: String },
     /// Built into the program, or given with the scene.
-    Embedded { name: String, text: String },
+    Embedded { name: String, bytes: Vec<u8> },
 }
 
 impl Files {
@@ -45,8 +46,8 @@ impl Files {
     /// Finds the file that is given at `place` as the value of `key`.
     pub(super) fn locate(&self, key: &str, name: &str, place: &Place) -> Result<Located, Fault> {
         let shown = shorten(name);
-        if let Some((name, text)) = self.embedded.iter().find(|(n, _)| n == name).cloned() {
-            return Ok(Located::Embedded { name, text });
+        if let Some((name, bytes)) = self.embedded.iter().find(|(n, _)| n == name).cloned() {
+            return Ok(Located::Embedded { name, bytes });
         }
         // A built-in scene with an override is the user's own: it may name files in the current folder.
         let folder = self.folder.as_deref().unwrap_or(Path::new("."));
@@ -95,6 +96,13 @@ impl Located {
             Self::Disk { name, .. } | Self::Embedded { name, .. } => name,
         }
     }
+    /// It, to be read as a file of particles or links.
+    pub(super) fn input(&self) -> Input<'_> {
+        match self {
+            Self::Disk { path, .. } => Input::disk(path),
+            Self::Embedded { name, bytes } => Input::memory(Path::new(name), bytes),
+        }
+    }
     /// Its text, for a shader.
     pub(super) fn shader(&self, place: &Place) -> Result<String, Fault> {
         self.text(place, "a shader", LONGEST_SHADER)
@@ -128,12 +136,12 @@ impl Located {
     }
     fn bytes(&self, place: &Place, what: &str, longest: u64) -> Result<Vec<u8>, Fault> {
         match self {
-            Self::Embedded { name, text } if text.len() as u64 > longest => Err(Fault::at(
+            Self::Embedded { name, bytes } if bytes.len() as u64 > longest => Err(Fault::at(
                 place,
-                format!("{} has {} bytes, more than the {longest} that {what} may have", shorten(name), text.len()),
+                format!("{} has {} bytes, more than the {longest} that {what} may have", shorten(name), bytes.len()),
             )
             .in_input()),
-            Self::Embedded { text, .. } => Ok(text.clone().into_bytes()),
+            Self::Embedded { bytes, .. } => Ok(bytes.clone()),
             Self::Disk { path, .. } => {
                 let bad = |why: String| Fault::at(place, format!("cannot read {}: {why}", self.shown())).in_input();
                 let length = fs::metadata(path).map_err(|e| bad(e.to_string()))?.len();

@@ -10,7 +10,7 @@ use crate::links::Links;
 use crate::settings::{Key, Kind, Settings, Value};
 use crate::state::State;
 
-use super::files::{Files, Located};
+use super::files::Files;
 use super::report::{Fault, Report};
 use super::resolved::Writer;
 use super::tree::{Data, Entry, Node};
@@ -74,13 +74,10 @@ fn from_file(
 ) -> Option<Links> {
     let name = value::text(&entry.node, "file", "the name of a file", report)?;
     let place = &entry.node.place;
-    let read = files.locate("file", name, place).and_then(|located| match &located {
-        Located::Disk { path, name } => match links::read(path, positions, bounds, usual) {
-            Ok(links) => Ok((links, name.clone())),
+    let read = files.locate("file", name, place).and_then(|located| {
+        match links::read(&located.input(), positions, bounds, usual) {
+            Ok(links) => Ok((links, located.name().to_owned())),
             Err(why) => Err(Fault::at(place, why.to_string()).in_input()),
-        },
-        Located::Embedded { name, .. } => {
-            Err(Fault::at(place, format!("{name} has no links: they are read from files on a disk")))
         }
     });
     match read {

@@ -12,6 +12,7 @@
 //!
 //! The sections and their keys are data (`sections.rs`), checked by one walker (`walk.rs`); nothing in a scene is ever run.
 
+mod beside;
 mod bounds;
 mod builtin;
 mod checkpoint;
@@ -56,6 +57,7 @@ use crate::settings::Settings;
 use crate::simulation::Setup;
 use crate::state::State;
 
+pub use beside::with_file;
 #[doc(hidden)]
 pub use builtin::{Builtin, SCENES};
 #[doc(hidden)]

@@ -14,7 +14,7 @@ use crate::state::State;
 
 use super::color;
 use super::column;
-use super::files::{Files, Located};
+use super::files::Files;
 use super::fluid;
 use super::held;
 use super::report::{Fault, Place, Report};
@@ -135,15 +135,11 @@ fn from_file(
     let offsets = table.named(format!("{} file", table.name)).settings(OFFSETS, &beside("file", &columns), report);
     let name = value::text(&entry.node, "file", "the name of a file", report)?;
     let place = &entry.node.place;
-    let located = files.locate("file", name, place).and_then(|located| match &located {
-        Located::Disk { path, name } => match formats::read(path, known) {
-            Ok(particles) => Ok((particles, name.clone())),
+    let located =
+        files.locate("file", name, place).and_then(|located| match formats::read_from(&located.input(), known) {
+            Ok(particles) => Ok((particles, located.name().to_owned())),
             Err(why) => Err(Fault::at(place, why.to_string()).in_input()),
-        },
-        Located::Embedded { name, .. } => {
-            Err(Fault::at(place, format!("{name} has no particles: they are read from files on a disk")))
-        }
-    });
+        });
     match located {
         Ok((particles, path)) => {
             out.text("file", &path);

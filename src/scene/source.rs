@@ -35,8 +35,8 @@ pub enum Source {
         name: String,
         /// The scene.
         text: String,
-        /// Names and texts of files.
-        files: Vec<(String, String)>,
+        /// Names and contents of files.
+        files: Vec<(String, Vec<u8>)>,
     },
 }
 
@@ -49,7 +49,7 @@ pub(super) struct Opened {
     pub(super) text: String,
     /// The folder of the files that it names; `None`: those of the built-in scene.
     pub(super) folder: Option<PathBuf>,
-    pub(super) embedded: Vec<(String, String)>,
+    pub(super) embedded: Vec<(String, Vec<u8>)>,
 }
 
 impl Source {
@@ -96,7 +96,8 @@ impl Source {
             }
             Self::Builtin(b) => {
                 let file = format!("{}.toml", b.name);
-                let embedded = b.files.iter().map(|&(name, text)| (name.to_owned(), text.to_owned())).collect();
+                let embedded =
+                    b.files.iter().map(|&(name, text)| (name.to_owned(), text.as_bytes().to_vec())).collect();
                 Ok(Opened { name: b.name.to_owned(), file, text: b.text.to_owned(), folder: None, embedded })
             }
             Self::Memory { name, text, files } => {

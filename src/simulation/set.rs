@@ -34,16 +34,16 @@ impl<B: Backend> Simulation<B> {
     /// another kind or out of its range, with the number; when the setting changes the kernels, and not only their numbers. Nothing has
     /// changed then.
     pub fn set(&mut self, force: &str, setting: &str, to: impl Into<Change>) -> Result<(), Error> {
-        self.set_all(force, vec![(setting, to.into())])
+        self.set_all(force, &[(setting, to.into())])
     }
     /// The same with several settings of a force, which change together.
     ///
     /// # Errors
     /// As for [`Simulation::set`]. Nothing has changed then.
-    pub fn set_all(&mut self, force: &str, settings: Vec<(&str, Change)>) -> Result<(), Error> {
+    pub fn set_all(&mut self, force: &str, settings: &[(&str, Change)]) -> Result<(), Error> {
         let place = self.place(force)?;
         let mut forces = self.setup.forces.clone();
-        for (setting, to) in &settings {
+        for (setting, to) in settings {
             forces[place] = forces[place].changed(setting, to)?;
         }
         let names: Vec<_> = settings.iter().map(|(setting, _)| format!("`{setting}`")).collect();

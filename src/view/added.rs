@@ -79,17 +79,18 @@ impl<B: Backend> Stage<B> {
         let Some(place) = self.added.trap() else {
             return self.add(None, made("tweezers", settings)?).await;
         };
-        self.trap(place, settings.into_iter().map(|(key, value)| (key, value.into())).collect())
+        let settings: Vec<_> = settings.into_iter().map(|(key, value)| (key, value.into())).collect();
+        self.trap(place, &settings)
     }
     /// Ends the pull.
     pub fn release(&mut self) -> Result<(), Error> {
         let pulls = self.added.usual.take().is_some();
         match self.added.trap() {
-            Some(place) if pulls => self.trap(place, vec![("depth", 0.0.into())]),
+            Some(place) if pulls => self.trap(place, &[("depth", 0.0.into())]),
             _ => Ok(()),
         }
     }
-    fn trap(&mut self, place: usize, settings: Vec<(&str, Change)>) -> Result<(), Error> {
+    fn trap(&mut self, place: usize, settings: &[(&str, Change)]) -> Result<(), Error> {
         let names = self.simulation.settings();
         let Some((name, _)) = names.get(self.start.forces.len() + place) else { return Ok(()) };
         let name = name.clone();

@@ -173,7 +173,7 @@ fn looks<B: Backend>(view: &mut View<B>, ui: &mut Ui) {
 fn forces<B: Backend>(view: &mut View<B>, ui: &mut Ui) {
     let start = view.stage.original();
     for ((name, settings), scene) in view.stage.simulation.settings().into_iter().zip(start) {
-        let Some(scene) = scene.map(|force| force.settings()) else { continue };
+        let Some(scene) = scene.map(crate::component::Component::settings) else { continue };
         if settings.is_empty() {
             continue;
         }

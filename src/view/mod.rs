@@ -240,7 +240,7 @@ impl<B: Backend> View<B> {
     async fn pull(&mut self, across: f64, up: f64) -> Result<(), Error> {
         let Some(sign) = self.hand.tool.sign() else { return Ok(()) };
         if self.paused {
-            self.message = "nothing is pulled while the run stands still: Space goes on".to_owned();
+            self.say("nothing is pulled while the run stands still: Space goes on");
         }
         self.stage.pull(across, up, self.hand.reach, sign * self.hand.strength).await
     }

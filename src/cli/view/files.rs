@@ -8,17 +8,15 @@ pub const LOOK: Duration = Duration::from_millis(250);
 
 /// The files of a scene, and when they were written last.
 pub struct Files {
-    /// The name by which the scene is opened again.
-    pub scene: String,
     written: Vec<(PathBuf, Option<SystemTime>)>,
     looked: Instant,
 }
 
 impl Files {
     /// The files of a scene that was read from a time on. What was written since then may not have been read.
-    pub fn of(files: &[PathBuf], scene: &str, begun: SystemTime) -> Self {
+    pub fn of(files: &[PathBuf], begun: SystemTime) -> Self {
         let written = files.iter().map(|file| (file.clone(), modified(file).filter(|time| *time < begun))).collect();
-        Self { scene: scene.to_owned(), written, looked: Instant::now() }
+        Self { written, looked: Instant::now() }
     }
     /// Whether one of them was written since it was last seen, and is at rest.
     pub fn changed(&mut self) -> bool {
@@ -61,7 +59,7 @@ mod tests {
             std::fs::write(file, "one").expect("a file");
         }
         wait();
-        let mut files = Files::of(&[scene, law.clone()], "scene", SystemTime::now());
+        let mut files = Files::of(&[scene, law.clone()], SystemTime::now());
         wait();
         assert!(!files.changed(), "nothing was saved");
         std::fs::write(&law, "two").expect("a file");
@@ -85,7 +83,7 @@ mod tests {
         let scene = folder.path().join("scene.toml");
         let begun = SystemTime::now() - Duration::from_millis(20);
         std::fs::write(&scene, "one").expect("a file");
-        let mut files = Files::of(&[scene], "scene", begun);
+        let mut files = Files::of(&[scene], begun);
         wait();
         assert!(files.changed());
     }

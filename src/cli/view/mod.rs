@@ -30,20 +30,43 @@ pub async fn view(args: &ViewArgs) -> Result<(), Failure> {
     .into())
 }
 
-/// The scene of the arguments, or another one in its place.
+/// The origin of a scene.
 #[cfg(feature = "view")]
-async fn load(args: &ViewArgs, other: Option<&str>) -> Result<super::load::Loaded, Failure> {
+#[derive(Clone)]
+struct Origin {
+    source: motes::scene::Source,
+    /// Whether it is the scene of the arguments, with their values.
+    own: bool,
+    /// Whether a file was put beside it by hand, which may be anywhere.
+    outside: bool,
+}
+
+/// Loads a scene with the arguments.
+#[cfg(feature = "view")]
+async fn load(args: &ViewArgs, origin: &Origin) -> Result<super::load::Loaded, Failure> {
     use super::args::{BackendChoice, DeviceArgs, SceneArgs};
     let scene = SceneArgs {
-        scene: other.unwrap_or(&args.scene).to_owned(),
+        scene: args.scene.clone(),
         steps: None,
         until: None,
-        // Values are those of the scene that was named with them.
-        overrides: if other.is_some_and(|other| other != args.scene) { Vec::new() } else { args.overrides.clone() },
-        scale: if other.is_some_and(|other| other != args.scene) { None } else { args.scale },
-        allow_outside: args.allow_outside,
+        overrides: if origin.own { args.overrides.clone() } else { Vec::new() },
+        scale: args.scale.filter(|_| origin.own),
+        allow_outside: args.allow_outside || origin.outside,
         auto_substeps: false,
         device: DeviceArgs { backend: BackendChoice::Gpu, adapter: args.adapter.clone() },
     };
-    super::load::load(&scene, &[]).await
+    super::load::load_from(&origin.source, &scene).await
+}
+
+#[cfg(feature = "view")]
+impl Origin {
+    /// The scene of the arguments, or another one of this name.
+    fn find(args: &ViewArgs, name: &str) -> Result<Self, Failure> {
+        let source = motes::scene::Source::find(name)?;
+        Ok(Self { source, own: name == args.scene, outside: false })
+    }
+    /// The same with a file beside it.
+    fn beside(&self, file: &str) -> Result<Self, Failure> {
+        Ok(Self { source: self.source.beside(file)?, own: self.own, outside: true })
+    }
 }

@@ -1,7 +1,7 @@
 //! The window.
 
 use std::io::Write as _;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::{Instant, SystemTime};
 
@@ -19,6 +19,7 @@ use winit::window::{Window, WindowId};
 
 use super::super::args::ViewArgs;
 use super::super::failure::Failure;
+use super::Origin;
 use super::files::{Files, LOOK};
 
 /// Opens the window, and returns when it is closed.
@@ -81,7 +82,7 @@ impl ApplicationHandler for App {
             }
             WindowEvent::Resized(size) => shell.surface.resize(size.into()).map_err(Failure::from),
             WindowEvent::DroppedFile(path) => {
-                shell.open_scene(&self.args, &path.to_string_lossy());
+                shell.drop(&self.args, &path);
                 Ok(())
             }
             WindowEvent::RedrawRequested => shell.frame(&self.args),
@@ -104,13 +105,15 @@ struct Shell {
     input: egui_winit::State,
     view: View<Gpu>,
     files: Files,
+    origin: Origin,
     frames: u64,
 }
 
 impl Shell {
     fn open(events: &ActiveEventLoop, args: &ViewArgs) -> Result<Self, Failure> {
         let begun = SystemTime::now();
-        let loaded = block_on(super::load(args, None))?;
+        let origin = Origin::find(args, &args.scene)?;
+        let loaded = block_on(super::load(args, &origin))?;
         let [width, height] = args.size;
         let attributes = Window::default_attributes()
             .with_title(format!("motes: {}", loaded.scene.name))
@@ -120,25 +123,34 @@ impl Shell {
         let (surface, found) = block_on(Surface::open(window.clone(), window.inner_size().into(), &choice))?;
         let context = Context::default();
         let input = egui_winit::State::new(context.clone(), ViewportId::ROOT, &window, None, window.theme(), None);
-        let files = Files::of(&loaded.scene.files, &args.scene, begun);
+        let files = Files::of(&loaded.scene.files, begun);
         let view = block_on(View::new(&loaded.scene, loaded.setup, make(&found)))?;
         window.request_redraw();
-        Ok(Self { window, surface, found, context, input, view, files, frames: 0 })
+        Ok(Self { window, surface, found, context, input, view, files, origin, frames: 0 })
+    }
+    /// Opens a scene that was dropped on the window, or the present one with another file.
+    fn drop(&mut self, args: &ViewArgs, path: &Path) {
+        let is_scene = path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("toml"));
+        let file = std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
+        let name = file.to_string_lossy();
+        self.open_scene(args, if is_scene { Origin::find(args, &name) } else { self.origin.beside(&name) });
     }
     /// Opens another scene. Where it has faults, the present one goes on, and they are said.
-    fn open_scene(&mut self, args: &ViewArgs, name: &str) {
+    fn open_scene(&mut self, args: &ViewArgs, origin: Result<Origin, Failure>) {
         let begun = SystemTime::now();
         let opened = block_on(async {
-            let loaded = super::load(args, Some(name)).await?;
+            let origin = origin?;
+            let loaded = super::load(args, &origin).await?;
             let (files, title) = (loaded.scene.files.clone(), loaded.scene.name.clone());
             let view = View::new(&loaded.scene, loaded.setup, make(&self.found)).await?;
-            Ok::<_, Failure>((view, files, title))
+            Ok::<_, Failure>((view, files, title, origin))
         });
         match opened {
-            Ok((view, files, title)) => {
+            Ok((view, files, title, origin)) => {
                 let film = std::mem::replace(&mut self.view, view).end();
                 self.keep(film);
-                self.files = Files::of(&files, name, begun);
+                self.files = Files::of(&files, begun);
+                self.origin = origin;
                 self.window.set_title(&format!("motes: {title}"));
             }
             Err(failure) => {
@@ -162,8 +174,7 @@ impl Shell {
     fn frame(&mut self, args: &ViewArgs) -> Result<(), Failure> {
         self.found.faults.check()?;
         if self.files.changed() {
-            let name = self.files.scene.clone();
-            self.open_scene(args, &name);
+            self.open_scene(args, Ok(self.origin.clone()));
         }
         let input = self.input.take_egui_input(&self.window);
         let mut output = self.context.run_ui(input, |ui| self.view.controls(ui));
@@ -174,7 +185,7 @@ impl Shell {
         let taken = self.view.take();
         self.keep(Ok(taken));
         if let Some(name) = self.view.wanted() {
-            self.open_scene(args, &name);
+            self.open_scene(args, Origin::find(args, &name));
             block_on(self.view.advance())?;
         }
         let size = self.view.size();

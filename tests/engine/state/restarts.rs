@@ -59,7 +59,8 @@ fn filed(scene: State, state: &State, precision: Precision) -> State {
     let mut own = scene;
     // What components declare and no file holds, a simulation knows anyway.
     state.declared().for_each(|column| own.declare(column).expect("the same columns"));
-    own.go_on_from(&npz::read(&path, &columns(state)).expect("read")).expect("the same particles");
+    own.go_on_from(&npz::read(&motes::formats::Input::disk(&path), &columns(state)).expect("read"))
+        .expect("the same particles");
     own
 }
 
@@ -338,7 +339,7 @@ fn a_table_goes_on_where_forces_depend_on_places_and_time() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("state.csv");
     csv::write_csv(std::fs::File::create(&path).expect("a file"), &middle, Precision::Double).expect("written");
-    let read = |path: &Path| csv::read(path, &Columns::default()).expect("read");
+    let read = |path: &Path| csv::read(&motes::formats::Input::disk(path), &Columns::default()).expect("read");
     let mut state = make().state;
     // A table holds no clock.
     let mut table = read(&path);

@@ -2,6 +2,7 @@
 
 use glam::DVec3;
 use motes::error::Error;
+use motes::formats::Input;
 use motes::formats::links::{self, Tie, Usual};
 use motes::links::{Link, Links, Rod};
 use proptest::prelude::*;
@@ -18,7 +19,7 @@ fn places() -> Vec<DVec3> {
 
 fn read(text: impl AsRef<[u8]>) -> Result<Links, Error> {
     let folder = folder();
-    links::read(&put(&folder, "net.csv", text), &places(), &motes::Bounds::default(), &USUAL)
+    links::read(&Input::disk(&put(&folder, "net.csv", text)), &places(), &motes::Bounds::default(), &USUAL)
 }
 
 fn written(links: &Links) -> Vec<u8> {
@@ -127,7 +128,7 @@ fn headers_and_files_that_are_none() {
     );
     let folder = folder();
     for path in [folder.path().join("nowhere.csv"), folder.path().to_owned()] {
-        match links::read(&path, &places(), &motes::Bounds::default(), &USUAL) {
+        match links::read(&Input::disk(&path), &places(), &motes::Bounds::default(), &USUAL) {
             Err(Error::Input { file, .. }) => assert_eq!(file, path),
             other => panic!("{other:?}"),
         }

@@ -5,7 +5,7 @@ use std::path::Path;
 
 use glam::DVec3;
 use motes::error::Error;
-use motes::formats::npz;
+use motes::formats::{Input, npz};
 use npyz::zip::write::FileOptions;
 use npyz::zip::{CompressionMethod, ZipWriter};
 
@@ -34,7 +34,7 @@ fn read(bytes: &[u8]) -> Result<motes::State, Error> {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let path = folder.path().join("a.npz");
     std::fs::write(&path, bytes).expect("a file");
-    npz::read(Path::new(&path), &motes::kernel::Columns::default())
+    npz::read(&Input::disk(Path::new(&path)), &motes::kernel::Columns::default())
 }
 
 /// x is the array given, y and z are fine.

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 use motes::State;
-use motes::formats::{Precision, tipsy};
+use motes::formats::{Input, Precision, tipsy};
 use proptest::prelude::*;
 
 use crate::formats::{bits, csv_bytes, folder, npz_bytes, put, read, some, tipsy_bytes, xyz_bytes};
@@ -111,7 +111,7 @@ proptest! {
         let archive = put(&folder, "a.npz", npz_bytes(&particles, Precision::Single));
         prop_assert_eq!(bits(&read(&archive).expect("npz")), bits(&particles));
         let binary = put(&folder, "a.tipsy", tipsy_bytes(&particles));
-        let back = tipsy::read(&binary).expect("tipsy");
+        let back = tipsy::read(&Input::disk(&binary)).expect("tipsy");
         prop_assert_eq!((bits(&back), back.time), (bits(&particles), 2.5));
     }
 

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 use motes::State;
-use motes::formats::tipsy;
+use motes::formats::{Input, tipsy};
 
 use crate::formats::{folder, put, read, refused, some};
 
@@ -44,7 +44,7 @@ fn tipsy_reads_both_orders_and_both_headers() {
         for padded in [false, true] {
             for counts in [[2, 3, 4], [0, 5, 0], [0, 0, 1], [3, 0, 0], [0, 0, 0]] {
                 let (bytes, particles) = tipsy_file(little, padded, counts);
-                let back = tipsy::read(&put(&folder, "a.tipsy", bytes)).expect("tipsy");
+                let back = tipsy::read(&Input::disk(&put(&folder, "a.tipsy", bytes))).expect("tipsy");
                 assert_eq!(back, particles, "{little} {padded} {counts:?}");
             }
         }

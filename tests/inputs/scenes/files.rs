@@ -256,7 +256,7 @@ fn scenes_in_memory_bring_their_files() {
     let text = "[simulation]\ndt = 0.01\nsteps = 1\n[[particles]]\nshape = \"sphere\"\ncount = 9\n[[force]]\nwgsl = \"law.wgsl\"\nover = \"each\"\n";
     let law = "fn force(me: Particle) -> vec4f { return vec4f(-me.position, 0.0); }";
     let load = |files: &[(&str, &str)], text: &str| {
-        let files = files.iter().map(|(name, text)| ((*name).to_owned(), (*text).to_owned())).collect();
+        let files = files.iter().map(|(name, text)| ((*name).to_owned(), text.as_bytes().to_vec())).collect();
         let source = Source::Memory { name: "mine.toml".to_owned(), text: text.to_owned(), files };
         Scene::load(&source, &[], &Options::default()).map_err(|faults| faults.to_string())
     };
@@ -268,7 +268,83 @@ fn scenes_in_memory_bring_their_files() {
     let long = format!("//{}\n{law}", " ".repeat(1 << 20));
     let long = refused(&[("law.wgsl", &long)], text);
     assert!(long.contains("more than the 1048576 that a shader may have"), "{long}");
-    let particles =
-        refused(&[("a.csv", "x,y,z\n1,2,3\n")], "[simulation]\ndt = 0.1\nsteps = 1\n[[particles]]\nfile = \"a.csv\"\n");
-    assert!(particles.contains("a.csv has no particles: they are read from files on a disk"), "{particles}");
+    let of_file = "[simulation]\ndt = 0.1\nsteps = 1\n[[particles]]\nfile = \"a.csv\"\n";
+    let scene = load(&[("a.csv", "x,y,z\n1,2,3\n4,5,6\n")], of_file).expect("particles");
+    assert_eq!(scene.particles.position()[1], glam::DVec3::new(4.0, 5.0, 6.0));
+    let broken = refused(&[("a.csv", "x,y,z\n1,2,3\n\n4,five,6\n")], of_file);
+    assert!(broken.contains("a.csv") && broken.contains("line 4") && broken.contains("five"), "{broken}");
+}
+
+/// Every format that is read from a disk is read from memory, to the same numbers; what is cut short is refused by both in the same words.
+#[test]
+fn files_in_memory_are_read_as_those_of_a_disk() {
+    use motes::formats::{FORMATS, Input, Options, read, read_from};
+    let columns = motes::kernel::Columns::default();
+    let mut state = motes::State::default();
+    for n in 0..40 {
+        let x = f64::from(n);
+        state.push(glam::DVec3::new(x, 0.5 * x, -x), glam::DVec3::splat(0.25 * x), 1.0 + x, 0.5);
+    }
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut seen = 0;
+    for format in FORMATS.iter().filter(|format| format.read.is_some()) {
+        let Some(write) = format.write else { continue };
+        let path = folder.path().join("a").with_extension(format.endings[0]);
+        motes::formats::atomically(&path, |out| write(out, &state, &Options::default())).expect("written");
+        let bytes = std::fs::read(&path).expect("bytes");
+        let name = std::path::Path::new(path.file_name().expect("a name"));
+        let [disk, memory] = [read(&path, &columns), read_from(&Input::memory(name, &bytes), &columns)];
+        assert_eq!(
+            disk.expect("disk"),
+            memory.unwrap_or_else(|why| panic!("{}: {why}", format.name)),
+            "{}",
+            format.name
+        );
+        let half = &bytes[..bytes.len() / 2];
+        std::fs::write(&path, half).expect("half");
+        let said = |result: Result<motes::State, motes::Error>| {
+            result.map_err(|why| why.to_string().replace(&*path.to_string_lossy(), &name.to_string_lossy()))
+        };
+        assert_eq!(
+            said(read(&path, &columns)),
+            said(read_from(&Input::memory(name, half), &columns)),
+            "{}",
+            format.name
+        );
+        seen += 1;
+    }
+    assert!(seen >= 6, "{seen} formats");
+}
+
+/// A file beside a scene: particles in the place of its own, a law as one more force.
+#[test]
+fn what_is_put_beside_a_scene_becomes_a_part_of_it() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let put = |name: &str, text: &str| {
+        let path = folder.path().join(name);
+        std::fs::write(&path, text).expect("written");
+        path.to_string_lossy().into_owned()
+    };
+    let table = put("mine.csv", "x,y,z,mass\n1,2,3,1\n4,5,6,2\n");
+    let law = put("law.wgsl", "fn force(me: Particle) -> vec4f { return vec4f(-me.position, 0.0); }");
+    let options = Options { allow_outside: true, ..Options::default() };
+    for name in ["plummer", "room"] {
+        let source = Source::find(name).expect("a scene").beside(&law).expect("with a law");
+        let before =
+            Scene::load(&Source::find(name).expect("a scene"), &[], &options).unwrap_or_else(|why| panic!("{why}"));
+        let scene = Scene::load(&source, &[], &options).unwrap_or_else(|why| panic!("{name}: {why}"));
+        assert_eq!(
+            (scene.forces.len(), scene.particles.len()),
+            (before.forces.len() + 1, before.particles.len()),
+            "{name}"
+        );
+        assert_eq!((scene.name.as_str(), &scene.about), (name, &before.about));
+    }
+    let both =
+        Source::find("plummer").expect("a scene").beside(&table).and_then(|source| source.beside(&law)).expect("both");
+    let scene = Scene::load(&both, &[], &options).unwrap_or_else(|why| panic!("{why}"));
+    assert_eq!((scene.particles.mass(), scene.forces.len()), (&[1.0, 2.0][..], 2));
+    let absent =
+        Source::find("plummer").expect("a scene").beside("/nowhere/law.wgsl").expect_err("no file").to_string();
+    assert!(absent.contains("/nowhere/law.wgsl"), "{absent}");
 }

@@ -1,6 +1,6 @@
 //! States that say which particles are active, and runs that continue from them.
 
-use motes::formats::{Precision, csv, npz};
+use motes::formats::{Input, Precision, csv, npz};
 use motes::kernel::Columns;
 use motes::life::Life;
 use motes::scene::{Options, Scene, Source};
@@ -18,13 +18,16 @@ fn files_say_which_are_active() {
     csv::write_csv(std::fs::File::create(&table).expect("a file"), &particles, Precision::Double).expect("written");
     let file = std::fs::File::create(&archive).expect("a file");
     npz::write_npz(file, &particles, Precision::Double).expect("written");
-    assert_eq!(csv::read(&table, &Columns::default()).expect("a table").life(), particles.life());
-    assert_eq!(npz::read(&archive, &Columns::default()).expect("an archive").life(), particles.life());
+    assert_eq!(csv::read(&Input::disk(&table), &Columns::default()).expect("a table").life(), particles.life());
+    assert_eq!(npz::read(&Input::disk(&archive), &Columns::default()).expect("an archive").life(), particles.life());
     // In another order, and with words that mean nothing.
     std::fs::write(&table, "id,x,y,z,life\n1,0,0,0,2\n0,0,0,0,0\n").expect("written");
-    assert_eq!(csv::read(&table, &Columns::default()).expect("a table").life(), [Life::Pending, Life::Removed]);
+    assert_eq!(
+        csv::read(&Input::disk(&table), &Columns::default()).expect("a table").life(),
+        [Life::Pending, Life::Removed]
+    );
     std::fs::write(&table, "x,y,z,life\n0,0,0,3\n").expect("written");
-    let said = csv::read(&table, &Columns::default()).expect_err("no such life").to_string();
+    let said = csv::read(&Input::disk(&table), &Columns::default()).expect_err("no such life").to_string();
     assert!(said.contains("column life: 3 is none of 0 (pending), 1 (active) and 2 (removed)"), "{said}");
     // Where all are active nothing is said of it.
     particles.remove("life");

@@ -92,7 +92,13 @@ fn broken_stays_broken_over_a_restart() {
         stiffness: 1.0,
         damping: 0.0,
     };
-    let read = motes::formats::links::read(&path, rest.position(), &motes::Bounds::default(), &usual).expect("links");
+    let read = motes::formats::links::read(
+        &motes::formats::Input::disk(&path),
+        rest.position(),
+        &motes::Bounds::default(),
+        &usual,
+    )
+    .expect("links");
     assert_eq!(read.springs, rest.links.springs);
     rest.links.springs = read.springs;
     let mut again = gpu(&shared, &tearing(&rest, 0.4, "symplectic_euler", 0.004));
