@@ -35,6 +35,9 @@ impl Film {
     pub fn picture(&self) -> &Picture {
         &self.picture
     }
+    pub(crate) fn picture_mut(&mut self) -> &mut Picture {
+        &mut self.picture
+    }
     /// The trails of the next picture.
     pub fn retrace(&mut self, trail: Trail) {
         self.picture.retrace(trail);

@@ -67,9 +67,15 @@ pub const KEYS: &[Key] = &[
     ),
     Key::new(
         "color",
-        Kind::Choice(&["auto", "group", "speed", "heading"]),
+        Kind::Choice(&["auto", "group", "speed", "heading", "column"]),
         word("auto"),
-        "by group of particles, by speed, by heading (hue round the z axis, lighter upwards); auto: by speed where many are one group",
+        "by group of particles, by speed, by heading (hue round the z axis, lighter upwards), by a column; auto: by speed where many are one group",
+    ),
+    Key::new(
+        "column",
+        Kind::Column,
+        word(""),
+        "with color = \"column\": its name, such as density; of vectors the length is shown; logarithmic where values are positive and 100 times apart",
     ),
     Key::new(
         "draw",

@@ -4,7 +4,7 @@ use glam::{DVec2, DVec3};
 use noto_sans_mono_bitmap::{FontWeight, RasterHeight, get_raster, get_raster_width};
 
 use super::heading;
-use super::palette::by_speed;
+use super::palette::value_color;
 use super::{Color, Image, Picture};
 
 /// The longest bar of length, as a part of the width.
@@ -160,29 +160,43 @@ impl Pen<'_> {
         let text = number(length);
         self.text(&text, 0.5 * (from + at) - DVec2::new(0.5 * self.width(&text), 1.4 * self.line));
     }
+    /// The scale of values with its title and the numbers at its ends, with its right upper corner at a place. A title that has no room between them stands below.
+    fn ramp(&mut self, [title, low, high]: [&str; 3], at: DVec2) {
+        let (wide, thick) = (SCALE[0] * self.line, 0.6 * self.line);
+        let from = at - DVec2::new(wide, 0.0);
+        let mut x = 0.0;
+        while x < wide {
+            let color = value_color(x / wide);
+            let mut y = 0.0;
+            while y < thick {
+                self.cover(from.x + x, from.y + y, color, 1.0);
+                y += 1.0;
+            }
+            x += 1.0;
+        }
+        let below = from + DVec2::new(0.0, thick + 0.1 * self.line);
+        self.text(low, below);
+        self.text(high, below + DVec2::new(wide - self.width(high), 0.0));
+        let room = wide - 2.0 * self.width(low).max(self.width(high)) - self.line;
+        let lower = if self.width(title) > room { self.line } else { 0.0 };
+        self.text(title, below + DVec2::new((0.5 * (wide - self.width(title))).min(wide - self.width(title)), lower));
+    }
     /// The scale of colours, with its right upper corner at a place.
     fn scale(&mut self, color: &Color, at: DVec2) {
         match color {
-            Color::Given(_) => {}
+            Color::Given(_) | Color::Column(_) => {}
+            // The scale of particles of one speed is widened by as much as a number is rounded.
             Color::Speed { slow, fast } => {
-                let (wide, high) = (SCALE[0] * self.line, 0.6 * self.line);
-                let from = at - DVec2::new(wide, 0.0);
-                let mut x = 0.0;
-                while x < wide {
-                    let color = by_speed(x / wide);
-                    let mut y = 0.0;
-                    while y < high {
-                        self.cover(from.x + x, from.y + y, color, 1.0);
-                        y += 1.0;
-                    }
-                    x += 1.0;
-                }
-                // The scale of particles of one speed is widened by as much as a number is rounded.
-                let (low, slow) = (from + DVec2::new(0.0, high + 0.1 * self.line), number(slow.max(0.0)));
-                let fast = if *fast < 1e-30 { number(0.0) } else { number(*fast) };
-                self.text(&slow, low);
-                self.text(&fast, low + DVec2::new(wide - self.width(&fast), 0.0));
-                self.text("speed", low + DVec2::new(0.5 * (wide - self.width("speed")), 0.0));
+                self.ramp(["speed", &number(slow.max(0.0)), &number(if *fast < 1e-30 { 0.0 } else { *fast })], at);
+            }
+            Color::Value(scaled) => {
+                let unit = scaled.column.unit.as_ref();
+                let title = if unit.is_empty() {
+                    scaled.column.name.to_string()
+                } else {
+                    format!("{} [{unit}]", scaled.column.name)
+                };
+                self.ramp([&title, &number(scaled.low), &number(scaled.high)], at);
             }
             Color::Heading => {
                 let radius = 1.2 * self.line;

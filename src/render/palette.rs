@@ -4,6 +4,7 @@ use glam::DVec3;
 
 use super::camera::FEW;
 use super::frame::whole;
+use crate::kernel::{Array, Column};
 use crate::settings::Settings;
 use crate::state::State;
 
@@ -33,8 +34,75 @@ pub enum Color {
         /// The bright end.
         fast: f64,
     },
+    /// A column of this name, before a simulation has [scaled](crate::Simulation::scale) its values.
+    Column(String),
+    /// A column, or the length of its vectors, on a scale between two values.
+    Value(Box<Scaled>),
     /// The heading: the hue by the angle in the plane of x and y, the lightness by the climb along z.
     Heading,
+}
+
+/// A column with the ends of its scale.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Scaled {
+    /// The column.
+    pub column: Column,
+    /// The dark end.
+    pub low: f64,
+    /// The bright end.
+    pub high: f64,
+    /// Whether the scale is logarithmic.
+    pub logarithmic: bool,
+}
+
+/// Values this far apart, as a factor, are on a logarithmic scale.
+const DECADES: f64 = 100.0;
+
+impl Scaled {
+    /// On a scale that leaves out the lowest and the highest 2 % of these values; it is logarithmic where all are positive and they are far apart.
+    #[must_use]
+    pub fn of(column: Column, values: impl IntoIterator<Item = f64>) -> Self {
+        let (low, high) = ends(values);
+        let logarithmic = low > 0.0 && high / low > DECADES;
+        Self { column, low, high, logarithmic }
+    }
+    /// The ends as shaders have them.
+    pub(super) fn ends(&self) -> (f64, f64) {
+        if self.logarithmic { (self.low.ln(), self.high.ln()) } else { (self.low, self.high) }
+    }
+    /// The colour of a value.
+    #[must_use]
+    pub fn color(&self, value: f64) -> DVec3 {
+        if !value.is_finite() {
+            return DVec3::splat(0.5);
+        }
+        let (low, high) = self.ends();
+        let value = if self.logarithmic { value.max(1e-37).ln() } else { value };
+        value_color((value - low) / (high - low))
+    }
+    /// The value of each row: a number, or the length of a vector.
+    #[must_use]
+    pub fn sizes(values: &Array) -> Vec<f64> {
+        match values {
+            Array::Float(values) => values.clone(),
+            Array::Uint(values) => values.iter().map(|n| f64::from(*n)).collect(),
+            Array::Vec3(values) => values.iter().map(|v| v.length()).collect(),
+            Array::Vec4(values) => values.iter().map(|v| v.truncate().length()).collect(),
+        }
+    }
+}
+
+/// From nearly the lowest to nearly the highest of some values, and a little apart.
+fn ends(values: impl IntoIterator<Item = f64>) -> (f64, f64) {
+    let mut values: Vec<f64> = values.into_iter().filter(|v| v.is_finite()).collect();
+    if values.is_empty() {
+        return (0.0, 1.0);
+    }
+    values.sort_unstable_by(f64::total_cmp);
+    let (low, high) = (values[values.len() / 50], values[(values.len() - 1) - values.len() / 50]);
+    // All the same: the middle of the scale.
+    let least = 1e-3 * low.abs().max(high.abs()).max(1e-30);
+    if high - low > least { (low, high) } else { (low - least, high + least) }
 }
 
 /// Red in the lowest byte.
@@ -49,8 +117,8 @@ pub fn group_color(group: u32) -> [u8; 3] {
     PALETTE[group as usize % PALETTE.len()]
 }
 
-/// The slowest, three between, the fastest: lighter from each to the next but the last.
-const SPEEDS: [DVec3; 5] = [
+/// The lowest value, three between, the highest: lighter from each to the next but the last.
+const SCALE: [DVec3; 5] = [
     DVec3::new(0.26, 0.28, 0.84),
     DVec3::new(0.29, 0.54, 0.96),
     DVec3::new(0.52, 0.79, 0.94),
@@ -58,9 +126,10 @@ const SPEEDS: [DVec3; 5] = [
     DVec3::new(1.0, 0.77, 0.38),
 ];
 
-/// The colour of a speed, as a part of the way from the slow end to the fast one.
-pub(super) fn by_speed(part: f64) -> DVec3 {
-    along(&SPEEDS, part)
+/// The colour at a part of the scale of values.
+#[must_use]
+pub fn value_color(part: f64) -> DVec3 {
+    along(&SCALE, part)
 }
 
 /// The colour at a part of a scale of evenly spaced colours.
@@ -81,6 +150,7 @@ impl Color {
             "speed" => true,
             "group" => false,
             "heading" => return Self::Heading,
+            "column" => return Self::Column(settings.text("column").to_owned()),
             _ => !several && !few,
         };
         if by_speed {
@@ -94,19 +164,16 @@ impl Color {
         Self::Given((0..particles.len()).map(group).collect())
     }
 
+    /// The ends of its scale, as shaders have them.
+    pub(super) fn ends(&self) -> (f64, f64) {
+        match self {
+            Self::Speed { slow, fast } => (*slow, *fast),
+            Self::Value(scaled) => scaled.ends(),
+            Self::Given(_) | Self::Column(_) | Self::Heading => (0.0, 1.0),
+        }
+    }
     fn by_speed(particles: &State) -> Self {
-        let mut speeds: Vec<f64> = particles.velocity().iter().map(|v| v.length()).filter(|v| v.is_finite()).collect();
-        if speeds.is_empty() {
-            return Self::Speed { slow: 0.0, fast: 1.0 };
-        }
-        speeds.sort_unstable_by(f64::total_cmp);
-        let (slow, fast) = (speeds[speeds.len() / 50], speeds[(speeds.len() - 1) - speeds.len() / 50]);
-        // All equally fast: the middle of the scale.
-        let least = 1e-3 * fast.abs().max(1e-30);
-        if fast - slow > least {
-            Self::Speed { slow, fast }
-        } else {
-            Self::Speed { slow: slow - least, fast: fast + least }
-        }
+        let (slow, fast) = ends(particles.velocity().iter().map(|v| v.length()));
+        Self::Speed { slow, fast }
     }
 }

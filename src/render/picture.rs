@@ -117,7 +117,7 @@ impl Picture {
             solid: style.solid(&subject),
             glow: style.glow(&subject),
             unit: unit(count),
-            speeds: if let Color::Speed { slow, fast } = color { (slow, fast) } else { (0.0, 1.0) },
+            speeds: color.ends(),
             points: if style.has_trails() { points(&trail) } else { 0 },
             sky: match background {
                 "black" => 0.0,
@@ -152,6 +152,11 @@ impl Picture {
             annotated: settings.flag("annotate"),
             has_inactive: !particles.life().is_empty() || particles.capacity.is_some(),
         })
+    }
+    /// Takes other colours.
+    pub fn paint(&mut self, color: Color) {
+        self.frame.speeds = color.ends();
+        self.color = color;
     }
     /// The same picture with other trails.
     pub fn retrace(&mut self, trail: Trail) {

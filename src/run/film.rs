@@ -111,7 +111,8 @@ impl Film {
         progress: &mut dyn Progress,
     ) -> Result<(), Error> {
         let trail = &to.0.trail;
-        if self.auto_frame && trail.wanted() {
+        // Of columns nothing is kept.
+        if self.auto_frame && trail.wanted() && !to.0.shows_column() {
             let (position, velocity) = (simulation.read(POSITION).await?, simulation.read(VELOCITY).await?);
             self.kept.push(Kept { step, pushes: trail.pushes(), position, velocity });
             return Ok(());

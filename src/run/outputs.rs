@@ -51,7 +51,8 @@ impl Run {
         for number in 0..self.all().len() {
             let writer = &mut self.all()[number];
             writer.take(&moment)?;
-            let Some(picture) = writer.picture(&moment)? else { continue };
+            let Some(mut picture) = writer.picture(&moment)? else { continue };
+            Box::pin(simulation.scale(&mut picture)).await?;
             let image = images::note(simulation.draw(&picture).await?, &picture, state.time);
             self.all()[number].drawn(state.step, image)?;
         }

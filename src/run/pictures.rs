@@ -27,6 +27,9 @@ pub struct Pictures {
     name: String,
     wanted: bool,
     picture: Settings,
+    /// The same before a closed box was framed, with the width of the scene's picture for its height; until all particles are framed.
+    #[cfg(feature = "panel")]
+    unframed: Option<(Settings, f64)>,
     groups: Vec<Group>,
     digits: usize,
     /// The number of steps between two points of a trail.
@@ -50,6 +53,8 @@ impl Pictures {
             name: scene.name.clone(),
             wanted: scene.output.pictures,
             picture: framed(&scene.picture, &bounds),
+            #[cfg(feature = "panel")]
+            unframed: Some((scene.picture.clone(), aspect(&scene.picture))),
             groups: scene.groups.clone(),
             digits: scene.steps.to_string().len(),
             stride: (scene.steps / TRAIL).max(1),
@@ -72,6 +77,10 @@ impl Pictures {
     #[must_use]
     pub fn wanted(&self) -> bool {
         self.wanted
+    }
+    /// Whether colours show a column.
+    pub(super) fn shows_column(&self) -> bool {
+        self.picture.text("color") == "column"
     }
     /// The last picture.
     #[must_use]
@@ -104,7 +113,8 @@ impl Pictures {
         let scenery = self.scenery(&snapshot.boxed(&self.bounds), snapshot.time);
         let mut picture = Picture::with(&self.picture, snapshot, &groups, trail, &scenery)?;
         // Colours of the scene take precedence over the palette, unless another colouring was chosen.
-        if !["speed", "heading"].contains(&self.picture.text("color")) && self.groups.iter().any(|g| g.color.is_some())
+        if !["speed", "heading", "column"].contains(&self.picture.text("color"))
+            && self.groups.iter().any(|g| g.color.is_some())
         {
             let color = |group: &u32| {
                 let own = self.groups.get(*group as usize).and_then(|g| g.color);
@@ -114,6 +124,12 @@ impl Pictures {
         }
         Ok(picture)
     }
+}
+
+/// The width of a picture for its height.
+#[cfg(feature = "panel")]
+fn aspect(picture: &Settings) -> f64 {
+    picture.number("width") / picture.number("height")
 }
 
 /// The objects that pictures of a setup show beside particles.
@@ -138,19 +154,31 @@ impl Pictures {
     }
     /// Changes one of them.
     pub fn set(&mut self, key: &'static str, value: Value) {
+        if let Some((unframed, _)) = &mut self.unframed {
+            unframed.0.insert(key, value.clone());
+        }
         self.picture.0.insert(key, value);
     }
     /// Takes other settings.
     pub fn restore(&mut self, settings: Settings) {
         self.picture = settings;
     }
-    /// Takes another size \[pixels\].
+    /// Takes another size \[pixels\], in which all that the scene's picture shows has its place.
     pub fn size(&mut self, width: u32, height: u32) {
         self.set("width", width.into());
         self.set("height", height.into());
+        if let Some((unframed, wide)) = &self.unframed {
+            let mut given = unframed.clone();
+            if !given.flag("auto_frame") {
+                let extent = given.number("extent") * (wide / aspect(&given)).max(1.0);
+                given = given.with("extent", extent.into());
+            }
+            self.picture = framed(&given, &self.bounds);
+        }
     }
     /// Frames all particles from the direction of a camera.
     pub fn aim(&mut self, camera: &Camera) {
+        self.unframed = None;
         let projection = if camera.distance > 0.0 { "perspective" } else { "orthographic" };
         self.set("eye", camera.back.into());
         self.set("up", camera.up.into());

@@ -6,7 +6,7 @@ use crate::kernel::{Array, Column, Columns, Kind, Shape};
 use crate::settings::{self, Key, Value};
 use crate::state::State;
 
-use super::report::{Fault, Place, Report};
+use super::report::{Fault, Place, Report, listed, nearest, shorten};
 use super::resolved::{self, Writer};
 use super::sections::SECTIONS;
 use super::tree::{Data, Node};
@@ -37,6 +37,36 @@ pub(super) fn read<'a>(
     report: &mut Report,
 ) -> Vec<(Column, Place)> {
     tables.filter_map(|table| Some((one(table, out, report)?, table.place.clone()))).collect()
+}
+
+/// Checks the column by which pictures are coloured.
+pub(super) fn of_picture(table: &Table<'_>, picture: &settings::Settings, columns: &Columns, report: &mut Report) {
+    let (name, wanted) = (picture.text("column"), picture.text("color") == "column");
+    match table.get("column") {
+        _ if wanted && name.is_empty() => {
+            report.push(table.lacks("column", "the name of a column", "the one that colours show"));
+        }
+        Some(entry) if !name.is_empty() => {
+            let known =
+                || columns.iter().filter(|column| column.shape == Shape::Particle).map(|column| column.name.as_ref());
+            if !known().any(|one| one == name) {
+                let fault = Fault::at(
+                    &entry.node.place,
+                    format!("there is no column `{}` with a value for each particle", shorten(name)),
+                );
+                let near = nearest(name, known()).map(|near| format!("did you mean `{near}`?"));
+                let fault = near.into_iter().fold(fault, Fault::label);
+                report.push(fault.note(format!("columns of this scene: {}", listed(known()))));
+            } else if !wanted {
+                let fault = Fault::at(
+                    &entry.node.place,
+                    format!("`column` is used with color = \"column\", and color is \"{}\"", picture.text("color")),
+                );
+                report.push(fault.label("remove it, or set color = \"column\""));
+            }
+        }
+        _ => {}
+    }
 }
 
 fn one(table: &Table<'_>, out: &mut Writer, report: &mut Report) -> Option<Column> {

@@ -360,6 +360,9 @@ fn read(sections: &[(&'static str, Table<'_>)], files: &Files, options: &Options
     };
     out.header("[picture]");
     out.settings(render::KEYS, &picture);
+    if let Some(table) = one("picture") {
+        column::of_picture(table, &picture, &columns, report);
+    }
 
     let remarks = simulation.remark.iter().cloned().chain(fluid::contradictions(sections));
     let remarks = remarks.chain(render::styles::remark(&picture)).chain(of_plan).collect();

@@ -32,8 +32,8 @@ pub(super) fn read(node: &Node, key: &str, kind: Kind, report: &mut Report) -> O
             }
             _ => refuse(node, key, &kind.wanted(), report),
         },
-        // Whether such a motion or file exists is checked by its section.
-        Kind::Motion | Kind::File => match &node.data {
+        // Whether such a motion, column or file exists is checked by its section.
+        Kind::Motion | Kind::Column | Kind::File => match &node.data {
             Data::Text(name) => Some(Value::Text(Cow::Owned(name.clone()))),
             _ => refuse(node, key, &kind.wanted(), report),
         },

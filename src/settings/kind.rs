@@ -29,6 +29,8 @@ pub enum Kind {
     Flag,
     /// The name of a motion of the scene, or an empty text: none.
     Motion,
+    /// The name of a column, or an empty text: none.
+    Column,
     /// The name of a file of the scene, or an empty text: none. A shape gets the contents of the file.
     File,
     /// Some of [`SIDES`], with blanks between them, or an empty text: none.
@@ -49,7 +51,9 @@ impl Kind {
             }
             Self::Species => matches!(value, Value::Number(_) | Value::Text(_)),
             Self::Vector | Self::Direction => matches!(value, Value::Vector(_)),
-            Self::Choice(_) | Self::Motion | Self::File | Self::Sides | Self::Color => matches!(value, Value::Text(_)),
+            Self::Choice(_) | Self::Motion | Self::Column | Self::File | Self::Sides | Self::Color => {
+                matches!(value, Value::Text(_))
+            }
             Self::Flag => matches!(value, Value::Flag(_)),
             Self::Pairs(keys) => matches!(value, Value::Pairs(rows) if rows.iter().all(|row| row.fits(keys))),
         }
@@ -71,6 +75,7 @@ impl Kind {
             Self::Choice(known) => format!("one of {}", listed(known.iter().copied())),
             Self::Flag => "true or false".to_owned(),
             Self::Motion => "the name of a motion".to_owned(),
+            Self::Column => "the name of a column".to_owned(),
             Self::File => "the name of a file".to_owned(),
             Self::Sides => format!("some of {}, with blanks between them", listed(SIDES.iter().copied())),
             Self::Color => "a colour such as \"#ffcc88\" or \"gold\"".to_owned(),

@@ -55,7 +55,7 @@ impl Store {
     fn is_state(&self, column: &Column) -> bool {
         self.columns.get(&column.name).is_some_and(|known| known.role == Role::State)
     }
-    fn lies_on_device(&self, column: &Column) -> bool {
+    pub(super) fn lies_on_device(&self, column: &Column) -> bool {
         self.bound.contains(&column.place.buffer)
     }
     /// Fills the buffers of the device; where a run continues, velocities are those of its last step.
@@ -113,7 +113,7 @@ impl Store {
     pub fn columns(&self) -> &Columns {
         &self.columns
     }
-    fn named(&self, name: &str) -> Result<&Column, Error> {
+    pub(super) fn named(&self, name: &str) -> Result<&Column, Error> {
         self.columns.get(name).ok_or_else(|| {
             let known: Vec<&str> = self.columns.iter().map(|column| column.name.as_ref()).collect();
             Error::Scene(format!("there is no column `{name}`; there are {}", known.join(", ")))

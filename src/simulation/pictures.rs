@@ -1,9 +1,12 @@
 //! Pictures of a simulation.
 
+use std::borrow::Cow;
+
 use super::Simulation;
 use crate::error::Error;
 use crate::kernel::Backend;
-use crate::render::{self, Film, Image, Picture};
+use crate::kernel::Shape;
+use crate::render::{self, Color, Film, Image, Picture, Scaled, pack};
 
 impl<B: Backend> Simulation<B> {
     /// Draws the current state. Only the picture is read back.
@@ -13,7 +16,11 @@ impl<B: Backend> Simulation<B> {
     pub async fn draw(&mut self, picture: &Picture) -> Result<Image, Error> {
         self.fits(picture)?;
         self.settle().await?;
-        render::draw(&mut self.backend, picture).await
+        let mut picture = Cow::Borrowed(picture);
+        if matches!(picture.color, Color::Column(_)) {
+            Box::pin(self.scale(picture.to_mut())).await?;
+        }
+        render::draw(&mut self.backend, &picture).await
     }
     /// Draws the current state as the next picture of a film.
     ///
@@ -22,6 +29,7 @@ impl<B: Backend> Simulation<B> {
     pub async fn shoot(&mut self, film: &mut Film) -> Result<Image, Error> {
         self.fits(film.picture())?;
         self.settle().await?;
+        Box::pin(self.scale(film.picture_mut())).await?;
         render::shoot(&mut self.backend, film).await
     }
     /// Draws the current state into a field of the device, and reads nothing back of it.
@@ -32,7 +40,45 @@ impl<B: Backend> Simulation<B> {
     pub async fn show(&mut self, live: &mut render::Live) -> Result<(), Error> {
         self.fits(&live.picture)?;
         self.settle().await?;
+        self.scale(&mut live.picture).await?;
         live.draw(&mut self.backend).await
+    }
+    /// Gives a picture that is coloured by a column the scale of its present values; others stay as they are. A column that is not on the device, because no
+    /// kernel uses it, gives each particle a colour of its own. Without this a picture has a scale of its own each time it is drawn.
+    ///
+    /// # Errors
+    /// [`Error::Scene`] when there is no such column, nothing computes it, or it has several values for each particle; and when the device is lost, out of
+    /// memory or does not answer in time.
+    pub async fn scale(&mut self, picture: &mut Picture) -> Result<(), Error> {
+        let Color::Column(name) = &picture.color else { return Ok(()) };
+        let column = self.store.named(name)?.clone();
+        if column.shape != Shape::Particle {
+            return Err(Error::Scene(format!(
+                "the column `{name}` has not one value for each particle, so that no colours can show it"
+            )));
+        }
+        let on_device = self.store.lies_on_device(&column);
+        // Of a derived column only a measurement has the values of the present state.
+        let state = self.snapshot_of(&[&column.name]).await?;
+        let fixed = state.fixed();
+        let values = state.get(&column.name).map(Scaled::sizes).unwrap_or_default();
+        // Walls are not what one looks at, where there is anything else.
+        let free = values.iter().zip(&fixed).filter(|(_, fixed)| !**fixed).map(|(value, _)| *value);
+        let free: Vec<f64> = free.collect();
+        let sizes = Scaled::sizes(&self.read_column(&column.name).await?);
+        let shown = [&free, &values, &sizes].into_iter().find(|values| !values.is_empty());
+        let scaled = Scaled::of(column, shown.into_iter().flatten().copied());
+        picture.paint(if on_device {
+            Color::Value(Box::new(scaled))
+        } else {
+            let byte = |x: f64| {
+                #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "between two bytes")]
+                let byte = (255.0 * x).round().clamp(0.0, 255.0) as u8;
+                byte
+            };
+            Color::Given(sizes.iter().map(|x| pack(scaled.color(*x).to_array().map(byte))).collect())
+        });
+        Ok(())
     }
     fn fits(&self, picture: &Picture) -> Result<(), Error> {
         if picture.frame.count != self.capacity() {

@@ -7,7 +7,7 @@ use egui::{
 
 use super::action::Action;
 use super::tool::{self, Tool};
-use super::{View, keyboard, sliders};
+use super::{View, keyboard, legend, sliders};
 use crate::kernel::Backend;
 use crate::render;
 use crate::scene::SCENES;
@@ -135,8 +135,38 @@ pub fn digits(x: f64) -> String {
     plain(format!("{x:.3e}").parse().unwrap_or(x))
 }
 
+/// By what particles are coloured: a word of the key, or a column.
+fn colors<B: Backend>(view: &mut View<B>, ui: &mut Ui) {
+    let Some(key) = render::KEYS.iter().find(|key| key.name == "color") else { return };
+    let Kind::Choice(known) = key.kind else { return };
+    let (word, column) = (view.stage.text("color"), view.stage.text("column"));
+    let by_column = word == "column";
+    let now = if by_column { column.clone() } else { word.clone() };
+    let columns: Vec<(String, String)> = view.stage.shown_columns();
+    ui.horizontal(|ui| {
+        let label = ui.label("color").on_hover_text(key.about);
+        let list = ComboBox::from_id_salt("color").selected_text(&now).show_ui(ui, |ui| {
+            let set = |key, to: &str| Action::Picture { key, value: Value::Text(to.to_owned().into()) };
+            for one in known.iter().filter(|one| **one != "column") {
+                if ui.selectable_label(*one == word, *one).clicked() && *one != word {
+                    view.actions.push(set("color", one));
+                }
+            }
+            ui.separator();
+            for (name, about) in &columns {
+                let is_it = by_column && *name == column;
+                if ui.selectable_label(is_it, name).on_hover_text(about).clicked() && !is_it {
+                    view.actions.extend([set("column", name), set("color", "column")]);
+                }
+            }
+        });
+        list.response.labelled_by(label.id);
+    });
+}
+
 fn looks<B: Backend>(view: &mut View<B>, ui: &mut Ui) {
-    for name in ["color", "style", "background", "draw"] {
+    colors(view, ui);
+    for name in ["style", "background", "draw"] {
         let Some(key) = render::KEYS.iter().find(|key| key.name == name) else { continue };
         let Kind::Choice(known) = key.kind else { continue };
         let now = view.stage.text(name);
@@ -150,6 +180,11 @@ fn looks<B: Backend>(view: &mut View<B>, ui: &mut Ui) {
                 }
             });
         });
+    }
+    let mut tail = view.stage.number("tail");
+    let slider = Slider::new(&mut tail, 0.0..=200.0 * view.stage.dt()).max_decimals(6).text("tail");
+    if ui.add(slider).on_hover_text("a streak from where each particle was so long ago").changed() {
+        view.actions.push(Action::Picture { key: "tail", value: Value::Number(tail) });
     }
     let mut exposure = view.stage.number("exposure");
     let slider = Slider::new(&mut exposure, 0.05..=20.0).logarithmic(true).max_decimals(2).text("exposure");
@@ -198,6 +233,7 @@ fn picture<B: Backend>(view: &mut View<B>, ui: &mut Ui) {
         Image::from_texture(SizedTexture::new(id, Vec2::new(width as f32, height as f32))).uv(seen).paint_at(ui, place);
     }
     let half = f64::from(0.5 * place.height()).max(1.0);
+    legend::show(&view.stage.picture().color, ui, place);
     mark(view, ui, place);
     drag(view, ui, &response, place);
     if response.double_clicked() {

@@ -6,6 +6,7 @@ mod chosen;
 mod controls;
 mod energies;
 mod keyboard;
+mod legend;
 mod orbit;
 mod pace;
 mod recording;

@@ -5,7 +5,7 @@ use glam::{DVec2, DVec3, DVec4};
 use super::Make;
 use super::added::Added;
 use crate::error::Error;
-use crate::kernel::{Array, Backend, POSITION};
+use crate::kernel::{Array, Backend, POSITION, Shape};
 use crate::render::{Camera, Image, Live, PROJECTED, Picture, Trail};
 use crate::run::Pictures;
 use crate::scene::Scene;
@@ -75,6 +75,12 @@ impl<B: Backend> Stage<B> {
     /// A key of the picture.
     pub fn text(&self, key: &str) -> String {
         self.pictures.looks().text(key).to_owned()
+    }
+    /// The columns that colours can show, and what they are.
+    pub fn shown_columns(&self) -> Vec<(String, String)> {
+        let columns = self.simulation.columns().iter().filter(|column| column.shape == Shape::Particle);
+        let unit = |unit: &str| if unit.is_empty() { String::new() } else { format!(" [{unit}]") };
+        columns.map(|column| (column.name.to_string(), format!("{}{}", column.about, unit(&column.unit)))).collect()
     }
     pub fn number(&self, key: &str) -> f64 {
         self.pictures.looks().number(key)

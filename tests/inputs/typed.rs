@@ -18,7 +18,7 @@ fn field(kind: Kind) -> &'static str {
         Kind::Vector | Kind::Direction => "DVec3",
         Kind::Flag => "bool",
         Kind::Pairs(_) => "Vec<Pair>",
-        Kind::Choice(_) | Kind::Motion | Kind::File | Kind::Sides | Kind::Color => "Cow<'static, str>",
+        Kind::Choice(_) | Kind::Motion | Kind::Column | Kind::File | Kind::Sides | Kind::Color => "Cow<'static, str>",
     }
 }
 

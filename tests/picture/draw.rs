@@ -21,7 +21,18 @@ pub fn hold<B: Backend>(mut backend: B, state: &State, picture: &Picture) -> B {
     backend.set_world(World { count, dt: 0.1, ..World::default() }).expect("a clock");
     backend.write("position", &array(state.position(), state.mass())).expect("positions");
     backend.write("velocity", &array(state.velocity(), state.size())).expect("velocities");
+    if let Some((name, values)) = own(state, picture).filter(|_| !on_host) {
+        backend.write(name, values).expect("a column");
+    }
     backend
+}
+
+/// The column that colours show, where it has a buffer of its own.
+fn own<'a>(state: &'a State, picture: &'a Picture) -> Option<(&'a str, &'a Array)> {
+    let Color::Value(scaled) = &picture.color else { return None };
+    let name = scaled.column.name.as_ref();
+    let is_own = scaled.column.place.buffer == name && !["position", "velocity"].contains(&name);
+    state.get(name).filter(|_| is_own).map(|values| (name, values))
 }
 
 pub fn gpu(shared: &Shared, state: &State, picture: &Picture) -> Gpu {
@@ -42,6 +53,9 @@ pub fn plain(state: &State, picture: &Picture) -> Image {
     let mut cpu = hold(Cpu::new(picture.frame.count).expect("particles"), state, picture);
     if !state.life().is_empty() {
         cpu.host_mut().insert("life", lives(state));
+    }
+    if let Some((name, values)) = own(state, picture) {
+        cpu.host_mut().insert(name, values.clone());
     }
     pollster::block_on(motes::render::draw(&mut cpu, picture)).expect("a picture")
 }
@@ -79,6 +93,10 @@ pub fn altered(
 ) -> Option<Image> {
     let mut exposing = plans.exposing.clone();
     change(&mut exposing)?;
+    // Colours of an earlier picture would stay where a kernel writes none.
+    if !matches!(picture.color, Color::Given(_)) && exposing.fields(picture.frame.count).contains_key("color") {
+        gpu.write("color", &Array::Uint(vec![0; picture.frame.count as usize])).ok()?;
+    }
     let exposure = expose(gpu, picture, &exposing)?;
     let same = exposure == plans.exposure;
     let mut developing = if same { plans.developing.clone() } else { picture.development(exposure).expect("a plan") };

@@ -4,10 +4,11 @@ use std::sync::Arc;
 
 use glam::{DQuat, DVec2, DVec3};
 use motes::State;
+use motes::kernel::Array;
 use motes::life::Life;
 use motes::links::{Link, Links, Rod};
 use motes::motion::{Held, Hold};
-use motes::render::{Camera, KEYS, Picture, Scenery, Shape, Solid, Trail};
+use motes::render::{Camera, Color, KEYS, Picture, Scaled, Scenery, Shape, Solid, Trail};
 use motes::settings::{Settings, Value};
 
 use super::support::{self, Random};
@@ -298,6 +299,22 @@ fn tall() -> Scene {
 }
 
 /// All of them.
+/// Balls of many values, some of which are not finite.
+fn by_column(name: &'static str, column: &str) -> Scene {
+    let mut state = cloud(150, 0.25);
+    let mut random = Random::new(5);
+    let heat: Vec<f64> = (0..150).map(|_| random.next() * 3.0 - 1.0).collect();
+    let heat = heat.into_iter().enumerate().map(|(n, x)| if n % 40 == 7 { f64::NAN } else { x }).collect();
+    let shells = (0..150).map(|n| n * n % 23).collect();
+    state.set("heat", Array::Float(heat)).expect("a column");
+    state.set("shell", Array::Uint(shells)).expect("a column");
+    let known = state.columns().find(|(one, _)| one.name == column).map(|(one, _)| one.clone()).expect("a column");
+    let sizes = Scaled::sizes(state.get(column).expect("values"));
+    let mut scene = scene(name, &settings(&[("style", "balls")], &[]), state, Trail::default(), &Scenery::default());
+    scene.picture.paint(Color::Value(Box::new(Scaled::of(known, sizes))));
+    scene
+}
+
 pub fn all() -> Vec<Scene> {
     vec![
         balls(),
@@ -317,5 +334,9 @@ pub fn all() -> Vec<Scene> {
         puddle(),
         funnel(),
         tall(),
+        by_column("by_mass", "mass"),
+        by_column("by_velocity", "velocity"),
+        by_column("by_heat", "heat"),
+        by_column("by_shell", "shell"),
     ]
 }

@@ -68,7 +68,7 @@ fn values(key: &Key) -> Vec<Value> {
         (Kind::Choice(words), _) => words.iter().map(|w| Value::Text(Cow::Borrowed(*w))).collect(),
         (Kind::Flag, _) => vec![Value::Flag(false), Value::Flag(true)],
         // What goes along with a motion has tests of its own.
-        (Kind::Motion, _) => vec![Value::Text("".into())],
+        (Kind::Motion | Kind::Column, _) => vec![Value::Text("".into())],
         (Kind::Species, Some(Value::Number(n))) => vec![Value::Text("all".into()), Value::Number(n + 1.0)],
         (Kind::Species, _) => vec![Value::Text("all".into()), Value::Number(1.0)],
         (Kind::Pairs(keys), _) => vec![Value::Pairs(table(keys))],

@@ -158,6 +158,14 @@ impl Hand {
         let known: Vec<_> = self.nodes.iter().filter_map(|(_, node)| node.label().or(node.value())).collect();
         middle(node.unwrap_or_else(|| panic!("no `{label}` among {known:?}")))
     }
+    /// The value of the control that a label belongs to.
+    pub fn value_beside(&self, label: &str) -> String {
+        let is_label = |node: &Node| node.label() == Some(label) || node.value() == Some(label);
+        let ids: Vec<NodeId> = self.nodes.iter().filter(|(_, node)| is_label(node)).map(|(id, _)| *id).collect();
+        let of = |node: &&Node| node.labelled_by().iter().any(|id| ids.contains(id));
+        let node = self.nodes.iter().map(|(_, node)| node).find(of);
+        node.and_then(|node| node.value().or(node.label())).unwrap_or_default().to_owned()
+    }
     /// The middle of the control that a label belongs to.
     pub fn place_beside(&self, label: &str) -> Pos2 {
         let is_label = |node: &Node| node.label() == Some(label) || node.value() == Some(label);

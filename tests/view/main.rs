@@ -267,6 +267,28 @@ fn a_click_chooses_what_is_drawn_there_and_the_camera_goes_with_it() {
     assert_eq!(hand.chosen(), None);
 }
 
+#[test]
+fn colours_show_any_column() {
+    let mut hand = Hand::on("dam_break_2d", &["force.1.spacing=0.1"]);
+    hand.until(30);
+    hand.key(Key::Space, Modifiers::NONE);
+    hand.frames(2);
+    // In a view that is higher than wide, all of the tank is in the picture.
+    let (before, width) = (hand.picture(), hand.size()[0] as usize);
+    let shown = lit(&before, width, 0..width);
+    assert!(shown > 0.01, "the fluid is not in the picture: {shown}");
+    let place = hand.place_beside("color");
+    hand.click(place);
+    hand.frames(3);
+    hand.frames(20);
+    let place = hand.place("position");
+    hand.click(place);
+    hand.frames(3);
+    assert_eq!(hand.message(), "");
+    assert_eq!(hand.value_beside("color"), "position");
+    assert!(hand.picture() != before, "the same colours");
+}
+
 /// The median distance of particles from the line of sight through the middle of the picture: `spring_chain` and its kin lie in a plane, and a
 /// camera along z sees it straight.
 fn median_distance(hand: &mut Hand) -> f64 {
@@ -325,7 +347,7 @@ fn a_ball_is_placed_where_it_is_drawn_and_keeps_particles_out() {
     let (position, radius) = (hand.setting("solid", "position"), hand.setting("solid", "radius"));
     let (Value::Vector(center), Value::Number(radius)) = (position, radius) else { panic!("a ball") };
     hand.frames(20);
-    assert_ne!(hand.picture(), before);
+    assert!(hand.picture() != before, "the same picture");
     let nearest = hand.places().iter().map(|x| x.distance(center)).fold(f64::INFINITY, f64::min);
     assert!(nearest > 0.999 * radius, "a particle is inside: {nearest} of {radius}");
     // The tool is used up: a drag turns the camera again. The ball has sliders of its own.
@@ -369,7 +391,7 @@ fn the_camera_flies_while_a_key_is_held() {
     assert!(closer > 1.05 * far, "it does not come closer: {closer} after {far} pixels");
     hand.hold_key(Key::S, 20);
     hand.hold_key(Key::D, 10);
-    assert_ne!(hand.picture(), near);
+    assert!(hand.picture() != near, "the same picture");
     let steps = hand.steps();
     hand.frames(3);
     assert_eq!(hand.steps(), steps);

@@ -5,9 +5,9 @@ use std::sync::Arc;
 use glam::DVec4;
 
 use super::super::frame::{BINS, Frame, NEVER, PROJECTED, whole};
-use super::super::{Color, Picture};
+use super::super::{Color, Picture, Scaled};
 use crate::error::Error;
-use crate::kernel::{Host, Kernel, Plan, Shader, Threads};
+use crate::kernel::{Host, Kernel, Kind, Plan, Shader, Threads};
 
 /// Iterations of one invocation's loops in one layer, at most: half of the 65 535 that lavapipe allows.
 const TURNS: u32 = 1 << 15;
@@ -45,12 +45,37 @@ pub fn absent(count: u32) -> Result<Kernel, Error> {
 
 /// Colours that are no given ones.
 pub fn color(picture: &Picture, plan: &mut Plan) -> Result<(), Error> {
-    let (name, file) = match picture.color {
-        Color::Speed { .. } => ("color by speed", crate::shader!("render/speed_color.wgsl")),
-        Color::Heading => ("color by heading", crate::shader!("render/heading_color.wgsl")),
-        Color::Given(_) => return Ok(()),
+    let scale = crate::shader!("render/scale.wgsl");
+    let (name, files) = match &picture.color {
+        Color::Speed { .. } => ("color by speed", vec![scale, crate::shader!("render/speed_color.wgsl")]),
+        Color::Heading => ("color by heading", vec![crate::shader!("render/heading_color.wgsl")]),
+        Color::Value(scaled) => return by_column(picture, scaled, plan),
+        Color::Given(_) | Color::Column(_) => return Ok(()),
     };
-    plan.add(picture.frame.simple(name, &[file], picture.frame.count, 4)?);
+    plan.add(picture.frame.simple(name, &files, picture.frame.count, 4)?);
+    Ok(())
+}
+
+/// Colours by a column, in whatever way it lies on the device.
+fn by_column(picture: &Picture, scaled: &Scaled, plan: &mut Plan) -> Result<(), Error> {
+    let place = &scaled.column.place;
+    let alone = place.buffer == scaled.column.name;
+    let file = match scaled.column.kind {
+        Kind::Whole => crate::shader!("render/column_whole.wgsl"),
+        Kind::Scalar if alone => crate::shader!("render/column_scalar.wgsl"),
+        Kind::Scalar => crate::shader!("render/column_part.wgsl"),
+        Kind::Vector | Kind::Quaternion => crate::shader!("render/column_length.wgsl"),
+    };
+    let file = file.renamed("column_buffer", &place.buffer);
+    let files = [crate::shader!("render/scale.wgsl"), file, crate::shader!("render/column_color.wgsl")];
+    let mut kernel = picture.frame.simple("color by column", &files, picture.frame.count, 4)?;
+    for pass in &mut kernel.passes {
+        pass.constants.push(("LOGARITHMIC", f64::from(u8::from(scaled.logarithmic))));
+        if scaled.column.kind == Kind::Scalar && !alone {
+            pass.constants.push(("COMPONENT", f64::from(place.component)));
+        }
+    }
+    plan.add(kernel);
     Ok(())
 }
 

@@ -12,9 +12,9 @@ use glam::{DVec2, DVec3, DVec4};
 use super::exposure::bin;
 use super::frame::{BINS, Frame, NEVER, middle, whole};
 use super::scenery::LINK;
-use super::{Exposure, Image, Picture};
+use super::{Color, Exposure, Image, Picture, Scaled};
 use crate::error::Error;
-use crate::kernel::{Host, POSITION, Reading, VELOCITY};
+use crate::kernel::{Columns, Host, POSITION, Reading, VELOCITY};
 
 /// A particle in the picture.
 #[derive(Debug, Clone, Copy)]
@@ -34,6 +34,8 @@ pub struct Canvas<'a> {
     position: Reading<'a, glam::Vec4>,
     velocity: Reading<'a, glam::Vec4>,
     link: Option<Reading<'a, u32>>,
+    /// What colours show of each particle, where they show a column.
+    values: Vec<f64>,
     /// Of each particle that is drawn by itself.
     pub discs: Vec<Option<Disc>>,
     /// Those that are not active, or for which a surface or a line stands.
@@ -65,6 +67,7 @@ pub fn draw(host: &Host, picture: &Picture, choose: impl FnOnce(Exposure) -> Exp
         position,
         velocity,
         link,
+        values: values(host, picture)?,
         discs: Vec::new(),
         hidden: Vec::new(),
         color: Vec::new(),
@@ -88,6 +91,15 @@ pub fn draw(host: &Host, picture: &Picture, choose: impl FnOnce(Exposure) -> Exp
     let rgba = rgb.into_iter().flat_map(|c| [byte(c.x), byte(c.y), byte(c.z), u8::MAX]).collect();
     let (width, height) = (canvas.frame.width, canvas.frame.height);
     Ok(Image { width, height, rgba, outside, broken })
+}
+
+/// The column by which a picture is coloured, if there is one.
+fn values(host: &Host, picture: &Picture) -> Result<Vec<f64>, Error> {
+    let Color::Value(scaled) = &picture.color else { return Ok(Vec::new()) };
+    let elements = host.get(&scaled.column.place.buffer).ok_or_else(|| {
+        Error::Scene(format!("the column `{}` is not there, so that no colours can show it", scaled.column.name))
+    })?;
+    Ok(Scaled::sizes(&Columns::unpacked(&scaled.column, &elements)))
 }
 
 impl Canvas<'_> {

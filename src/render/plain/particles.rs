@@ -6,7 +6,7 @@ use rayon::prelude::*;
 use super::super::Color;
 use super::super::frame::{Seen, rounded, unpack};
 use super::super::heading::tint;
-use super::super::palette::by_speed;
+use super::super::palette::value_color;
 use super::{Canvas, Disc};
 
 /// The lightest is drawn so large, beside the heaviest.
@@ -46,8 +46,10 @@ impl Canvas<'_> {
             Color::Given(words) => words.iter().map(|word| unpack(*word)).collect(),
             Color::Speed { .. } => {
                 let part = |v: &DVec4| ((v.truncate().length() - slow) / (fast - slow)).clamp(0.0, 1.0);
-                self.velocity.par_iter().map(|v| rounded(by_speed(part(v)))).collect()
+                self.velocity.par_iter().map(|v| rounded(value_color(part(v)))).collect()
             }
+            Color::Value(scaled) => self.values.iter().map(|value| rounded(scaled.color(*value))).collect(),
+            Color::Column(_) => Vec::new(),
             Color::Heading => self.velocity.par_iter().map(|v| rounded(tint(*v))).collect(),
         };
         self.color.resize(self.position.len(), DVec3::ZERO);
