@@ -54,13 +54,16 @@ fn keys(ui: &mut Ui) {
 fn panel<B: Backend>(view: &mut View<B>, ui: &mut Ui) {
     let open = view.stage.name.clone();
     ui.horizontal(|ui| {
-        ComboBox::from_id_salt("scene").selected_text(egui::RichText::new(&open).heading()).show_ui(ui, |ui| {
-            for scene in SCENES {
-                if ui.selectable_label(scene.name == open, scene.name).on_hover_text(scene.about()).clicked() {
-                    view.actions.push(Action::Open(scene.name.to_owned()));
+        let list =
+            ComboBox::from_id_salt("scene").selected_text(egui::RichText::new(&open).heading()).show_ui(ui, |ui| {
+                for scene in SCENES {
+                    if ui.selectable_label(scene.name == open, scene.name).on_hover_text(scene.about()).clicked() {
+                        view.actions.push(Action::Open(scene.name.to_owned()));
+                    }
                 }
-            }
-        });
+            });
+        let info = || egui::WidgetInfo::labeled(egui::Role::ComboBox, true, "scene");
+        list.response.widget_info(info);
         if ui.button("?").on_hover_text("the keys").clicked() {
             view.actions.push(Action::Help);
         }
@@ -171,14 +174,15 @@ fn looks<B: Backend>(view: &mut View<B>, ui: &mut Ui) {
         let Kind::Choice(known) = key.kind else { continue };
         let now = view.stage.text(name);
         ui.horizontal(|ui| {
-            ui.label(name).on_hover_text(key.about);
-            ComboBox::from_id_salt(name).selected_text(&now).show_ui(ui, |ui| {
+            let label = ui.label(name).on_hover_text(key.about);
+            let list = ComboBox::from_id_salt(name).selected_text(&now).show_ui(ui, |ui| {
                 for one in known {
                     if ui.selectable_label(*one == now, *one).clicked() && *one != now {
                         view.actions.push(Action::Picture { key: key.name, value: Value::Text((*one).into()) });
                     }
                 }
             });
+            list.response.labelled_by(label.id);
         });
     }
     let mut tail = view.stage.number("tail");

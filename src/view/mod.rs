@@ -131,6 +131,11 @@ impl<B: Backend> View<B> {
     pub fn pause(&mut self, paused: bool) {
         self.paused = paused || self.faulty;
     }
+    /// The mean times of a step and of a picture \[seconds\], once there was one.
+    #[must_use]
+    pub fn times(&self) -> [Option<f64>; 2] {
+        [self.pace.step, self.pace.picture]
+    }
     /// Whether the run stands still, so that nothing need be drawn until there is input.
     #[must_use]
     pub fn is_paused(&self) -> bool {

@@ -83,11 +83,12 @@ fn control(ui: &mut Ui, now: &Setting<'_>, scene: &Value, label: &egui::Response
         (Kind::Choice(known), Value::Text(word), _) => {
             let mut chosen = word.to_string();
             let list = ComboBox::from_id_salt((label.id, "choice")).selected_text(&chosen);
-            list.show_ui(ui, |ui| {
+            let list = list.show_ui(ui, |ui| {
                 for one in known {
                     ui.selectable_value(&mut chosen, (*one).to_owned(), *one);
                 }
             });
+            list.response.labelled_by(label.id);
             (chosen != *word).then(|| Value::Text(chosen.into()))
         }
         (_, Value::Flag(on), _) => {
@@ -99,7 +100,7 @@ fn control(ui: &mut Ui, now: &Setting<'_>, scene: &Value, label: &egui::Response
             let speed = 0.01 * v.abs().max_element().max(0.1);
             let mut changed = false;
             for part in &mut parts {
-                changed |= ui.add(DragValue::new(part).speed(speed).max_decimals(6)).changed();
+                changed |= ui.add(DragValue::new(part).speed(speed).max_decimals(6)).labelled_by(label.id).changed();
             }
             changed.then_some(Value::Vector(DVec3::from_array(parts)))
         }

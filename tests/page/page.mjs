@@ -161,6 +161,34 @@ const tests = {
     await page.close();
     await other.close();
   },
+  async "files that are dropped become parts of the scene"() {
+    const page = await visit("scene=plummer&scale=0.01&paused=1");
+    await runs(page, "plummer");
+    const drop = (name, text) => page.evaluate(({ name, text }) => {
+      const dataTransfer = new DataTransfer();
+      dataTransfer.items.add(new File([text], name));
+      document.dispatchEvent(new DragEvent("drop", { dataTransfer, bubbles: true, cancelable: true }));
+    }, { name, text });
+    // Two bodies in place of the sphere, with their own kinetic energy: 2 × ½ m v².
+    await drop("two.csv", "x,y,z,vx,vy,vz,mass\n-1,0,0,0,0.5,0,3\n1,0,0,0,-0.5,0,3\n");
+    await until(page, () => document.getElementById("text").value.includes("two.csv"));
+    const energies = () => page.evaluate(async () => [...await window.motes.advance(0)]);
+    await until(page, async () => Math.abs((await window.motes.advance(0))[1] - 0.75) < 1e-6);
+    assert.equal(await page.textContent("#faults"), "");
+    assert.match(await page.inputValue("#text"), /^# /, "the comment stays");
+    // A spring to the origin of each: ½ m x² = 3 more.
+    const [, , before] = await energies();
+    await drop("hold.wgsl", "fn force(me: Particle) -> vec4f { return vec4f(-me.position, 0.5 * dot(me.position, me.position)); }\n");
+    await until(page, () => document.getElementById("text").value.includes("hold.wgsl"));
+    await until(page, async (before) => Math.abs((await window.motes.advance(0))[2] - before - 3) < 1e-4, before);
+    // What is neither is said, and nothing changes.
+    await drop("letter.docx", "Dear all");
+    await until(page, () => document.getElementById("faults").textContent.includes("letter.docx"));
+    assert.match(await page.textContent("#faults"), /\.csv/);
+    await page.click("#link");
+    assert.match(await page.textContent("#status"), /does not carry/);
+    await page.close();
+  },
   async "the gallery has a picture of every scene, and opens them"() {
     const page = await visit("scene=galaxy&scale=0.02&paused=1");
     await runs(page, "galaxy");

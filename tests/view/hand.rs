@@ -1,10 +1,9 @@
 //! A hand at the viewer: what a window would send, frame by frame.
 
-use egui::accesskit::{Node, NodeId};
-use egui::{
-    Context, Event, Key, Modifiers, MouseWheelSource, MouseWheelUnit, PointerButton, Pos2, RawInput, Rect, TouchPhase,
-    Vec2,
-};
+use egui::accesskit::Role;
+use egui::{Event, Key, Modifiers, MouseWheelSource, MouseWheelUnit, PointerButton, Pos2, TouchPhase, Vec2};
+use egui_kittest::kittest::{NodeT as _, Queryable as _};
+use egui_kittest::{Harness, Node};
 use glam::DVec3;
 use motes::scene::{Options, Scene, Source};
 use motes::settings::Value;
@@ -14,10 +13,7 @@ use pollster::block_on;
 
 /// A view of 820 by 1200 points, with a panel at its right.
 pub struct Hand {
-    view: View<Gpu>,
-    context: Context,
-    nodes: Vec<(NodeId, Node)>,
-    frames: u32,
+    harness: Harness<'static, View<Gpu>>,
     /// The device lives as long as the view.
     _found: gpu::Found,
 }
@@ -35,13 +31,14 @@ impl Hand {
         let make = Box::new(move |setup: &_| Simulation::new(&device, &queue, setup));
         let mut view = block_on(View::new(&scene, setup, make)).expect("a view");
         view.each_frame(1);
-        let context = Context::default();
-        context.enable_accesskit();
-        let mut hand = Self { view, context, nodes: Vec::new(), frames: 0, _found: found };
+        // What is queried has no screen: nothing is painted.
+        let harness = Harness::builder().with_size(Vec2::new(820.0, 1200.0)).with_step_dt(1.0 / 60.0);
+        let harness = harness.build_ui_state(|ui, view: &mut View<Gpu>| view.controls(ui), view);
+        let mut hand = Self { harness, _found: found };
         // The panel takes its place before anything runs.
-        hand.view.pause(true);
+        hand.view().pause(true);
         hand.frames(3);
-        hand.view.pause(false);
+        hand.view().pause(false);
         hand
     }
     fn frame(&mut self, events: Vec<Event>) {
@@ -49,19 +46,14 @@ impl Hand {
             Event::Key { modifiers, .. } => Some(*modifiers),
             _ => None,
         });
-        let screen_rect = Some(Rect::from_min_size(Pos2::ZERO, Vec2::new(820.0, 1200.0)));
-        let time = Some(f64::from(self.frames) / 60.0);
         let held = Event::ModifiersChanged(modifiers.unwrap_or_default());
-        let events = std::iter::once(held).chain(events).collect();
-        let input = RawInput { screen_rect, time, events, focused: true, ..RawInput::default() };
-        let mut output = self.context.run_ui(input, |ui| self.view.controls(ui));
-        // There is no screen to be painted.
-        output.textures_delta.clear();
-        if let Some(update) = output.platform_output.accesskit_update {
-            self.nodes = update.nodes;
-        }
-        block_on(self.view.advance()).expect("a frame");
-        self.frames += 1;
+        let input = self.harness.input_mut();
+        input.events.extend(std::iter::once(held).chain(events));
+        self.harness.step();
+        block_on(self.view().advance()).expect("a frame");
+    }
+    fn view(&mut self) -> &mut View<Gpu> {
+        self.harness.state_mut()
     }
     pub fn frames(&mut self, count: u32) {
         (0..count).for_each(|_| self.frame(Vec::new()));
@@ -74,19 +66,19 @@ impl Hand {
         assert_eq!(self.steps(), steps);
     }
     pub fn steps(&mut self) -> u64 {
-        self.view.simulation().steps()
+        self.view().simulation().steps()
     }
     pub fn taken(&mut self) -> Option<motes::view::Taken> {
-        self.view.take()
+        self.view().take()
     }
     pub fn end(&mut self) -> Option<motes::view::Taken> {
-        self.view.end().expect("a film")
+        self.view().end().expect("a film")
     }
     pub fn message(&self) -> &str {
-        self.view.message()
+        self.harness.state().message()
     }
     pub fn size(&self) -> [u32; 2] {
-        self.view.size()
+        self.harness.state().size()
     }
     /// Presses a key, and releases it.
     pub fn key(&mut self, key: Key, modifiers: Modifiers) {
@@ -132,10 +124,10 @@ impl Hand {
     }
     /// The names of the forces.
     pub fn forces(&mut self) -> Vec<String> {
-        self.view.simulation().settings().into_iter().map(|(name, _)| name).collect()
+        self.view().simulation().settings().into_iter().map(|(name, _)| name).collect()
     }
     pub fn places(&mut self) -> Vec<DVec3> {
-        let positions = block_on(self.view.simulation().read(POSITION)).expect("positions");
+        let positions = block_on(self.view().simulation().read(POSITION)).expect("positions");
         positions.iter().map(|x| x.truncate().as_dvec3()).collect()
     }
     /// Turns the wheel at a place, and waits until it has come to rest.
@@ -153,49 +145,37 @@ impl Hand {
     }
     /// The middle of what has a label.
     pub fn place(&self, label: &str) -> Pos2 {
-        let named = |node: &Node| node.label() == Some(label) || node.value() == Some(label);
-        let node = self.nodes.iter().map(|(_, node)| node).find(|node| named(node) && node.bounds().is_some());
-        let known: Vec<_> = self.nodes.iter().filter_map(|(_, node)| node.label().or(node.value())).collect();
-        middle(node.unwrap_or_else(|| panic!("no `{label}` among {known:?}")))
+        let node = self.harness.query_all_by_label(label).next();
+        node.unwrap_or_else(|| panic!("no `{label}` in {:?}", self.harness)).rect().center()
     }
-    /// The value of the control that a label belongs to.
-    pub fn value_beside(&self, label: &str) -> String {
-        let is_label = |node: &Node| node.label() == Some(label) || node.value() == Some(label);
-        let ids: Vec<NodeId> = self.nodes.iter().filter(|(_, node)| is_label(node)).map(|(id, _)| *id).collect();
-        let of = |node: &&Node| node.labelled_by().iter().any(|id| ids.contains(id));
-        let node = self.nodes.iter().map(|(_, node)| node).find(of);
-        node.and_then(|node| node.value().or(node.label())).unwrap_or_default().to_owned()
+    /// The control that a label belongs to.
+    fn beside<'a>(&'a self, label: &'a str) -> Node<'a> {
+        let mut nodes = self.harness.query_all_by_label(label);
+        let node = nodes.find(|node| node.accesskit_node().role() != Role::Label);
+        node.unwrap_or_else(|| panic!("no control of `{label}` in {:?}", self.harness))
     }
-    /// The middle of the control that a label belongs to.
     pub fn place_beside(&self, label: &str) -> Pos2 {
-        let is_label = |node: &Node| node.label() == Some(label) || node.value() == Some(label);
-        let ids: Vec<NodeId> = self.nodes.iter().filter(|(_, node)| is_label(node)).map(|(id, _)| *id).collect();
-        let of = |node: &&Node| node.labelled_by().iter().any(|id| ids.contains(id)) && node.bounds().is_some();
-        let node = self.nodes.iter().map(|(_, node)| node).find(of);
-        middle(node.unwrap_or_else(|| panic!("no control of `{label}`, which {} nodes are", ids.len())))
+        self.beside(label).rect().center()
+    }
+    pub fn value_beside(&self, label: &str) -> String {
+        self.beside(label).value().unwrap_or_default()
     }
     /// A setting of a force, as it is.
     pub fn setting(&mut self, force: &str, name: &str) -> Value {
-        let settings = self.view.simulation().settings();
+        let settings = self.view().simulation().settings();
         let (_, settings) = settings.iter().find(|(known, _)| known == force).expect("a force");
         settings.iter().find(|setting| setting.name == name).expect("a setting").value.clone()
     }
     /// The id of the chosen particle, and where it is.
     pub fn chosen(&self) -> Option<(u32, DVec3)> {
-        self.view.chosen().map(|(id, x)| (id, x.expect("a place")))
+        self.harness.state().chosen().map(|(id, x)| (id, x.expect("a place")))
     }
     pub fn positions(&mut self) -> Vec<[u32; 4]> {
-        let positions = block_on(self.view.simulation().read(POSITION)).expect("positions");
+        let positions = block_on(self.view().simulation().read(POSITION)).expect("positions");
         positions.iter().map(|x| x.to_array().map(f32::to_bits)).collect()
     }
     /// The picture: red, green, blue and alpha of each pixel.
     pub fn picture(&mut self) -> Vec<u8> {
-        block_on(self.view.pixels()).expect("a picture")
+        block_on(self.view().pixels()).expect("a picture")
     }
-}
-
-#[expect(clippy::cast_possible_truncation, reason = "a place on a screen")]
-fn middle(node: &Node) -> Pos2 {
-    let bounds = node.bounds().expect("bounds");
-    Pos2::new(0.5 * (bounds.x0 + bounds.x1) as f32, 0.5 * (bounds.y0 + bounds.y1) as f32)
 }

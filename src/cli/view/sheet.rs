@@ -40,6 +40,9 @@ pub async fn draw(args: &ViewArgs, file: &Path) -> Result<(), Failure> {
     Image { width, height, rgba: sheet.read().await?, outside: 0, broken: 0 }.save(file)?;
     let (steps, many) = (view.simulation().steps(), |n: u64| if n == 1 { "" } else { "s" });
     out!("{frames} frame{}, {steps} step{}: {}", many(frames), many(steps), file.display());
+    if let [Some(step), Some(picture)] = view.times().map(|time| time.map(|seconds| 1e3 * seconds)) {
+        out!("a step took {step:.1} ms, a picture {picture:.1} ms");
+    }
     if view.message().is_empty() { Ok(()) } else { Err(Error::Device(view.message().to_owned()).into()) }
 }
 
