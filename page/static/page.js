@@ -237,6 +237,9 @@ document.addEventListener("drop", async (event) => {
     if (text === undefined || isLaw) {
       next.files.set(file.name, await file.text());
     } else if (viewer) {
+      // Sizes and values of the particles from before are none of these.
+      next.scale = undefined;
+      next.overrides = next.overrides.filter((value) => !value.startsWith("particles."));
       await viewer.hold(file.name, new Uint8Array(await file.arrayBuffer()));
       held.add(file.name);
     }

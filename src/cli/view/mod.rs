@@ -39,18 +39,25 @@ struct Origin {
     own: bool,
     /// Whether a file was put beside it by hand, which may be anywhere.
     outside: bool,
+    /// Whether particles of a file took the place of its own.
+    replaced: bool,
 }
 
 /// Loads a scene with the arguments.
 #[cfg(feature = "view")]
 async fn load(args: &ViewArgs, origin: &Origin) -> Result<super::load::Loaded, Failure> {
     use super::args::{BackendChoice, DeviceArgs, SceneArgs};
+    let values = args.overrides.iter().filter(|_| origin.own);
     let scene = SceneArgs {
         scene: args.scene.clone(),
         steps: None,
         until: None,
-        overrides: if origin.own { args.overrides.clone() } else { Vec::new() },
-        scale: args.scale.filter(|_| origin.own),
+        // Sizes and values of the scene's own particles are none of others.
+        overrides: values
+            .filter(|value| !(origin.replaced && value.trim_start().starts_with("particles.")))
+            .cloned()
+            .collect(),
+        scale: args.scale.filter(|_| origin.own && !origin.replaced),
         allow_outside: args.allow_outside || origin.outside,
         auto_substeps: false,
         device: DeviceArgs { backend: BackendChoice::Gpu, adapter: args.adapter.clone() },
@@ -63,10 +70,12 @@ impl Origin {
     /// The scene of the arguments, or another one of this name.
     fn find(args: &ViewArgs, name: &str) -> Result<Self, Failure> {
         let source = motes::scene::Source::find(name)?;
-        Ok(Self { source, own: name == args.scene, outside: false })
+        Ok(Self { source, own: name == args.scene, outside: false, replaced: false })
     }
     /// The same with a file beside it.
     fn beside(&self, file: &str) -> Result<Self, Failure> {
-        Ok(Self { source: self.source.beside(file)?, own: self.own, outside: true })
+        let source = self.source.beside(file)?;
+        let is_law = std::path::Path::new(file).extension().is_some_and(|ending| ending.eq_ignore_ascii_case("wgsl"));
+        Ok(Self { source, own: self.own, outside: true, replaced: self.replaced || !is_law })
     }
 }
