@@ -6,6 +6,7 @@ mod invariants;
 mod limits;
 mod looks;
 mod mutation;
+mod outlines;
 mod places;
 mod scenes;
 mod snapshots;
