@@ -77,7 +77,8 @@ impl Camera {
 
     fn frame(&mut self, particles: &State, trail: &Trail, aspect: f64, perspective: bool) {
         let few = particles.len() <= FEW;
-        let stride = particles.len().div_ceil(SAMPLE).max(1);
+        // An odd number: every eighth particle of strands of sixteen would leave out all their ends.
+        let stride = particles.len().div_ceil(SAMPLE) | 1;
         let mut shapes: Vec<(DVec3, f64)> =
             particles.position().iter().copied().zip(particles.size().iter().copied()).step_by(stride).collect();
         if particles.population().active > 0 {

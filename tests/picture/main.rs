@@ -2,6 +2,8 @@
 
 mod draw;
 mod fluids;
+#[cfg(feature = "scene")]
+mod frames;
 mod invariants;
 mod limits;
 mod looks;
