@@ -340,6 +340,26 @@ mod tests {
         assert!(lit(&image, [480, 0], [640, 100]).is_empty());
     }
 
+    /// A closed box of 2 by 1 lengths about the middle has its sides where they are, and no others.
+    #[test]
+    fn a_closed_box_is_outlined() {
+        let (mut picture, mut image) = blank("group", DVec3::Z);
+        let (low, high) = (DVec3::new(-1.0, -0.5, 0.0), DVec3::new(1.0, 0.5, 0.0));
+        let bounds = crate::kernel::Bounds::new(low, high, crate::kernel::Side::Periodic);
+        picture.frame.camera.center = DVec3::ZERO;
+        picture.frame.camera.distance = 0.0;
+        picture.contain(crate::render::Scenery::default().within(&bounds).tanks);
+        image.annotate(&picture, 0.0);
+        let bright = |x: usize, y: usize| image.rgba[4 * (y * 640 + x)] > 40;
+        // The middle is at 320 and 160, and a length is 64 pixels; the line covers half of both pixels beside it.
+        for x in [260, 300, 380] {
+            let rows: Vec<usize> = (110..210).filter(|y| bright(x, *y)).collect();
+            assert_eq!(rows, [127, 128, 191, 192], "column {x}");
+        }
+        let columns: Vec<usize> = (240..400).filter(|x| bright(*x, 150)).collect();
+        assert_eq!(columns, [255, 256, 383, 384]);
+    }
+
     /// Letters are light on dark and dark on light, and small pictures are left as they are.
     #[test]
     fn letters_stand_out_and_small_pictures_stay() {
