@@ -4,8 +4,11 @@
 @group(1) @binding(2) var<storage, read> projected: array<vec4f>; // pixels right and down, depth of its front, radius
 
 override ROWS: i32 = 64;
+// Whether it is hidden particles that are passed.
+override WALLS: bool = false;
 
 const WORKGROUP: u32 = 64u;
+const HIDDEN: f32 = -2.0;
 
 fn band(p: vec4f, layer: u32) -> Box {
     let all = box(p.xy, p.w + 0.5);
@@ -20,7 +23,8 @@ fn touches(p: vec4f, x: i32, y: i32) -> bool { return distance(middle(x, y), p.x
 fn discs(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u, @builtin(local_invocation_index) lane: u32) {
     let i = folded(group, groups) * WORKGROUP + lane;
     if i < world.count {
-        let p = projected[i];
+        var p = projected[i];
+        if WALLS { p.w = HIDDEN - p.w; }
         if p.w > 0.0 {
             let rows = band(p, group.z);
             for (var y = rows.low.y; y < rows.high.y; y += 1) {

@@ -9,10 +9,10 @@ fn mark(i: u32, p: vec4f, x: i32, y: i32) {
     let at = pixel(x, y);
     let half = bulge(p, x, y);
     let depth = key(depth_at(p, half));
+    // Of what a solid hides it is known that it is there.
+    atomicMax(&rim[at], u32(255.0 * clamp(p.w + 0.5 - distance(middle(x, y), p.xy), 0.0, 1.0) + 0.5));
     if depth < front[at] {
-        let cover = clamp(p.w + 0.5 - distance(middle(x, y), p.xy), 0.0, 1.0);
         atomicMin(&crest[at], depth);
         atomicAdd(&volume[at], u32(frame.grain * half + 0.5));
-        atomicMax(&rim[at], u32(255.0 * cover + 0.5));
     }
 }

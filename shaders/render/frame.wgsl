@@ -19,13 +19,14 @@ struct Frame {
     slow: f32,     // speeds at the ends of the colours
     fast: f32,
     points: u32,   // of all trails together
-    sky: f32,      // brightness of the background
+    sky: f32,      // brightness of a night; else the number of a background
     line: f32,     // half the width of a trail [pixels]
     bloom: f32,    // brightness of the bloom
     reach: u32,    // of the bloom [pixels of it]
     tail: f32,     // how long ago a stroke of light begins [time]
     bleach: f32,   // how white the brightest lights become
     ink: f32,      // how far particles darken a bright sky; 0 for lights in a dark one
+    tint: f32,     // brightness of ink
     fine: u32,     // samples of a pixel each way, where surfaces, lines and solids are drawn
     thread: f32,   // half the width of a line [pixels]
     triangles: u32,
@@ -45,6 +46,15 @@ struct Frame {
     calm: f32,
     farthest: u32, // of the latter at most [pixels]
     gloss: f32,    // how bright a sky it mirrors
+    soft: u32,     // how wide its outline is made smooth, and that of many drops in space [pixels]
+    softer: u32,
+    turn: f32,     // how far normals turn outwards at an outline: 1, or 0 in a plane
+    left: f32,     // the box of a fluid in a plane [pixels]
+    right_end: f32,
+    top: f32,
+    bottom: f32,
+    wrap_across: u32, // where it is periodic, how wide and high it is; else 0 [pixels]
+    wrap_down: u32,
     wire: f32,     // half the width of a tank's edge [pixels]
     edges: u32,
 }

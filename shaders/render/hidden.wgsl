@@ -4,12 +4,13 @@
 @group(1) @binding(11) var<storage, read> hidden: array<u32>;            // 1 for those
 
 const WORKGROUP: u32 = 64u;
-const HIDDEN: vec4f = vec4f(0.0, 0.0, 0.0, -2.0);
+const HIDDEN: f32 = -2.0;
 
 @compute @workgroup_size(WORKGROUP)
 fn hide_particles(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u, @builtin(local_invocation_index) lane: u32) {
     let i = folded(group, groups) * WORKGROUP + lane;
     if i < world.count {
-        if hidden[i] == 1u { projected[i] = HIDDEN; }
+        // Their radius stays known, for walls in a plane.
+        if hidden[i] == 1u { projected[i].w = HIDDEN - max(projected[i].w, 0.0); }
     }
 }

@@ -15,9 +15,6 @@ const SHRINK: u32 = 4u;
 const LAMP: vec3f = vec3f(-0.48, 0.6, 0.64); // right, up, towards the eye; of length 1
 const HALFWAY: vec3f = vec3f(-0.265035, 0.331294, 0.905537); // between the lamp and the eye
 
-// Brightness of ink, for that of light.
-const TINT: f32 = 0.13;
-
 fn pow2(x: f32) -> f32 { return x * x; }
 
 // A ball under a lamp (Lambert 1760, Blinn 1977). Its edge is as soft as a pixel.
@@ -47,7 +44,7 @@ fn ink(under: vec3f, light: vec3f) -> vec3f {
     let brightest = max(light.r, max(light.g, light.b));
     if brightest <= 0.0 { return under; }
     let t = exposure.slope * log2(1.0 + brightest / exposure.knee);
-    return mix(under, light * (TINT / brightest), frame.ink * min(exposure.body * t, 1.0));
+    return mix(under, light * (frame.tint / brightest), frame.ink * min(exposure.body * t, 1.0));
 }
 
 // Two lights on one pixel never pass white.
@@ -64,7 +61,7 @@ fn shaded(i: u32, under: vec3f) -> vec3f {
     if line != 0u {
         let trail = unpack4x8unorm(color[line & 0xffffu]).rgb;
         let bright = f32(line >> 16u) / 65535.0;
-        if frame.ink > 0.0 { c = mix(c, TINT * trail, frame.ink * bright); } else { c = screen(c, trail * bright); }
+        if frame.ink > 0.0 { c = mix(c, frame.tint * trail, frame.ink * bright); } else { c = screen(c, trail * bright); }
     }
     return clamp(c, vec3f(0.0), vec3f(1.0));
 }

@@ -1,5 +1,5 @@
 // Skies: a night, a little lighter in the middle; or a dusk, mixed downwards from slate to rose to amber, bright where the sun
-// has set:  glow = 2^(−d² / S²);  or a day, from blue to haze
+// has set:  glow = 2^(−d² / S²);  or a day, from blue to haze; water from above, lighter in the middle; white paper
 const SLATE: vec3f = vec3f(0.26, 0.31, 0.47);
 const ROSE: vec3f = vec3f(0.76, 0.55, 0.58);
 const AMBER: vec3f = vec3f(0.94, 0.68, 0.46);
@@ -22,8 +22,15 @@ const HAZE: vec3f = vec3f(0.93, 0.94, 0.95);
 
 fn day(place: vec2f, size: vec2f) -> vec3f { return mix(ZENITH, HAZE, smoothstep(0.0, 0.8, place.y / size.y)); }
 
+fn sea(place: vec2f, size: vec2f) -> vec3f {
+    let off = place / size - 0.5;
+    return mix(vec3f(0.06, 0.31, 0.36), vec3f(0.015, 0.12, 0.20), smoothstep(0.0, 0.5, dot(off, off)));
+}
+
 fn background(place: vec2f) -> vec3f {
     let size = vec2f(f32(frame.width), f32(frame.height));
+    if frame.sky > 3.0 { return vec3f(1.0); }
+    if frame.sky > 2.0 { return sea(place, size); }
     if frame.ink == 0.0 { return night(place, size); }
     if frame.sky > 1.0 { return day(place, size); }
     return dusk(place, size);

@@ -35,6 +35,10 @@ pub const CREST: Field<u32> = Field::new("crest");
 pub const VOLUME: Field<u32> = Field::new("volume");
 pub const RIM: Field<u32> = Field::new("rim");
 pub const SOURCE: Field<u32> = Field::new("source");
+/// What walls in its plane cover, and both with the part that counts, three numbers for each pixel.
+pub const WALL: Field<u32> = Field::new("wall");
+pub const COVER: Field<f32> = Field::new("cover");
+pub const NEXT_COVER: Field<f32> = Field::new("next_cover");
 /// Its surface, and the same after the next pass.
 pub const LEVEL: Field<f32> = Field::new("level");
 pub const THICKNESS: Field<f32> = Field::new("thickness");
@@ -47,7 +51,7 @@ pub const WET: Field<u32> = Field::new("wet");
 pub const EDGE: Field<Vec4> = Field::new("edge");
 
 /// Fields that live as long as one picture is drawn.
-pub const FIELDS: [&str; 37] = [
+pub const FIELDS: [&str; 40] = [
     PROJECTED.name,
     COLOR.name,
     TRAIL.name,
@@ -77,6 +81,9 @@ pub const FIELDS: [&str; 37] = [
     VOLUME.name,
     RIM.name,
     SOURCE.name,
+    WALL.name,
+    COVER.name,
+    NEXT_COVER.name,
     LEVEL.name,
     THICKNESS.name,
     DYE.name,

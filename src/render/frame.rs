@@ -47,7 +47,7 @@ pub struct Frame {
     pub speeds: (f64, f64),
     /// Points of all trails together.
     pub points: u32,
-    /// Brightness of the background.
+    /// Brightness of a night, 0 or 1; else a day, a sea or paper, 2 to 4.
     pub sky: f64,
     /// Half the width of a trail \[pixels\].
     pub line: f64,
@@ -61,6 +61,8 @@ pub struct Frame {
     pub bleach: f64,
     /// How far particles darken a bright sky, as a part of all of it; zero for lights in a dark one.
     pub ink: f64,
+    /// Brightness of ink, for that of light.
+    pub tint: f64,
     /// Samples of a pixel each way, where surfaces, lines and solids are drawn.
     pub fine: u32,
     /// Half the width of a line \[pixels\].
@@ -168,6 +170,7 @@ impl Frame {
             ("tail", float(self.tail)),
             ("bleach", float(self.bleach)),
             ("ink", float(self.ink)),
+            ("tint", float(self.tint)),
             ("fine", Scalar::Uint(self.fine)),
             ("thread", float(self.thread)),
             ("triangles", Scalar::Uint(self.triangles)),
@@ -178,6 +181,7 @@ impl Frame {
             ("slab", float(self.slab)),
         ];
         values.extend(self.water.values());
+        values.extend(self.water.ends(self).values());
         values
     }
     /// Elements of the fields that do not have one for each particle.
@@ -210,6 +214,9 @@ impl Frame {
             (VOLUME.name, area),
             (RIM.name, area),
             (SOURCE.name, area),
+            (WALL.name, area),
+            (COVER.name, 3 * area),
+            (NEXT_COVER.name, 3 * area),
             (LEVEL.name, area),
             (THICKNESS.name, area),
             (DYE.name, area),

@@ -51,7 +51,7 @@ pub const KEYS: &[Key] = &[
         "drop",
         Kind::NotNegative,
         Value::Number(0.0),
-        "of a fluid: the radius of a drop; 0: 0.75 of the particle spacing at the start, or 0.95 of it in a plane [length]",
+        "of a fluid: the radius of a drop; 0: 0.75 of the particle spacing at the start [length]",
     ),
     Key::new(
         "clarity",
@@ -99,12 +99,12 @@ pub const KEYS: &[Key] = &[
         "annotate",
         Kind::Flag,
         Value::Flag(false),
-        "write the time, the axes, a bar of length (at the centre) and the scale of colours in the corners",
+        "write the time, the axes, a bar of length (at the centre) and the scale of colours in the corners, and outline a closed box",
     ),
     Key::new(
         "background",
-        Kind::Choice(&["night", "black", "dusk", "day"]),
+        Kind::Choice(&["night", "black", "dusk", "day", "sea", "paper"]),
         word("night"),
-        "a dark blue sky; nothing; or a bright sky, at dusk or by day, with lights and trails as ink",
+        "a dark blue sky; nothing; a bright sky, at dusk or by day, with lights and trails as ink; water; or white paper, with coloured inks",
     ),
 ];

@@ -37,7 +37,7 @@ pub use fields::PIXELS;
 #[cfg(feature = "panel")]
 pub(crate) use fields::PROJECTED;
 pub use film::{Film, shoot};
-pub use fluid::Water;
+pub use fluid::{Plane, Water};
 pub use frame::Frame;
 pub use keys::KEYS;
 #[cfg(feature = "panel")]

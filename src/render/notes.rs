@@ -11,6 +11,8 @@ use super::{Color, Image, Picture};
 const BAR: f64 = 0.2;
 /// The opacity of the outline of letters.
 const SHADE: f64 = 0.4;
+/// The opacity of the outline of the box.
+const OUTLINE: f64 = 0.5;
 /// The shorter side of a picture below which nothing is written, in lines of text.
 const LEAST: f64 = 12.0;
 /// The width of the scale of speeds, and that of a picture below which it is left out, in lines of text.
@@ -18,7 +20,7 @@ const SCALE: [f64; 2] = [11.0, 20.0];
 
 impl Image {
     /// Writes on it, in its corners: the time \[time\], the axes x, y and z as they are seen, a bar with its length at the centre of the
-    /// picture \[length\], and the scale of speeds or headings where colours show them. Nothing is written on pictures of less than 192 pixels, and no scale
+    /// picture \[length\], and the scale of speeds or headings where colours show them; and the outline of a box that is closed along every axis. Nothing is written on pictures of less than 192 pixels, and no scale
     /// on those of less than 320 pixels from left to right.
     pub fn annotate(&mut self, picture: &Picture, time: f64) {
         let (width, height) = (f64::from(self.width), f64::from(self.height));
@@ -33,6 +35,13 @@ impl Image {
             return;
         }
         let mut pen = Pen { size, line, dark: false, image: self };
+        // A fluid is drawn within its box already.
+        if !picture.frame.water.is_there() {
+            pen.over(DVec2::ZERO, DVec2::new(width, height));
+            let [ink, _] = pen.ink();
+            let edges = picture.facets().tank_edges(&picture.frame);
+            edges.iter().for_each(|edge| pen.thin(edge.places(), ink));
+        }
         let (low, right) = (height - 0.75 * line, width - 0.75 * line);
         pen.over(DVec2::new(0.0, height - 2.0 * line), DVec2::new(8.0 * line, height));
         pen.text(&format!("t = {}", number(time)), DVec2::new(0.75 * line, low - line));
@@ -133,6 +142,32 @@ impl Pen<'_> {
                 x += 1.0;
             }
             y += 1.0;
+        }
+    }
+    /// A line of one pixel, as far as it is in the picture, through which one can see.
+    fn thin(&mut self, [from, to]: [DVec2; 2], color: DVec3) {
+        let size = DVec2::new(f64::from(self.image.width), f64::from(self.image.height));
+        let steps = (to - from).abs().max_element();
+        // Of lines from far away the part within the picture is found first.
+        let (mut first, mut last) = (0.0_f64, 1.0_f64);
+        for k in 0..2 {
+            let way = to[k] - from[k];
+            let at = [-1.0, size[k]].map(|end| (end - from[k]) / way);
+            if way.abs() > 1e-9 {
+                (first, last) = (first.max(at[0].min(at[1])), last.min(at[0].max(at[1])));
+            }
+        }
+        let across = if (to.x - from.x).abs() > (to.y - from.y).abs() { DVec2::Y } else { DVec2::X };
+        let mut step = (first * steps).floor();
+        while steps > 0.0 && step <= last * steps {
+            let at = from + (to - from) * (step / steps).min(1.0);
+            let low = (at - 0.5).dot(across).floor();
+            for near in [low, low + 1.0] {
+                let part = 1.0 - (at.dot(across) - 0.5 - near).abs();
+                let place = at * (DVec2::ONE - across) + across * near;
+                self.cover(place.x, place.y, color, OUTLINE * part);
+            }
+            step += 1.0;
         }
     }
     /// The axes from a place, those towards the eye last; an axis along the line of sight is a point.
@@ -317,6 +352,26 @@ mod tests {
         picture = picture.styled("density");
         image.annotate(&picture, 1.5);
         assert!(lit(&image, [480, 0], [640, 100]).is_empty());
+    }
+
+    /// A closed box of 2 by 1 lengths about the middle has its sides where they are, and no others.
+    #[test]
+    fn a_closed_box_is_outlined() {
+        let (mut picture, mut image) = blank("group", DVec3::Z);
+        let (low, high) = (DVec3::new(-1.0, -0.5, 0.0), DVec3::new(1.0, 0.5, 0.0));
+        let bounds = crate::kernel::Bounds::new(low, high, crate::kernel::Side::Periodic);
+        picture.frame.camera.center = DVec3::ZERO;
+        picture.frame.camera.distance = 0.0;
+        picture.contain(crate::render::Scenery::default().within(&bounds).tanks);
+        image.annotate(&picture, 0.0);
+        let bright = |x: usize, y: usize| image.rgba[4 * (y * 640 + x)] > 40;
+        // The middle is at 320 and 160, and a length is 64 pixels; the line covers half of both pixels beside it.
+        for x in [260, 300, 380] {
+            let rows: Vec<usize> = (110..210).filter(|y| bright(x, *y)).collect();
+            assert_eq!(rows, [127, 128, 191, 192], "column {x}");
+        }
+        let columns: Vec<usize> = (240..400).filter(|x| bright(*x, 150)).collect();
+        assert_eq!(columns, [255, 256, 383, 384]);
     }
 
     /// Letters are light on dark and dark on light, and small pictures are left as they are.

@@ -43,6 +43,9 @@ const SIDE: f64 = 8192.0;
 const AREA: f64 = 11_184_810.0;
 /// A ball of many is this large at most \[pixels\].
 const LARGEST_OF_MANY: f64 = 80.0;
+/// Brightness of ink, for that of light: before a sky all but black, on paper in colours that stand out from white.
+const TINT: f64 = 0.13;
+const TINT_ON_PAPER: f64 = 0.6;
 /// Samples of a pixel each way, at most.
 const FINE: u32 = 3;
 /// Samples of all pixels together, at most: a number for each fits the 128 MiB that every device binds.
@@ -79,7 +82,7 @@ impl Picture {
         let (few, entry) = (particles.len() <= FEW, styles::of(settings));
         let style = entry.style;
         let background = settings.text("background");
-        let bright = ["dusk", "day"].contains(&background);
+        let bright = ["dusk", "day", "paper"].contains(&background);
         let wet = style.is_fluid();
         let walls: &[u32] = if wet { &scenery.held } else { &[] };
         let facets = Facets::new(scenery, count, settings.text("draw"), walls)?;
@@ -122,6 +125,8 @@ impl Picture {
             sky: match background {
                 "black" => 0.0,
                 "day" => 2.0,
+                "sea" => 3.0,
+                "paper" => 4.0,
                 _ => 1.0,
             },
             line: (short / 800.0).max(0.5),
@@ -132,6 +137,7 @@ impl Picture {
             // White has no hue to say where it is heading.
             bleach: if color == Color::Heading { 0.2 } else { 0.6 },
             ink: if bright { 0.94 } else { 0.0 },
+            tint: if background == "paper" { TINT_ON_PAPER } else { TINT },
             fine,
             // Many are hair.
             thread: (short / if few { 300.0 } else { 1600.0 }).max(0.5 / f64::from(fine)),

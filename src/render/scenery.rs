@@ -5,7 +5,7 @@ use std::sync::Arc;
 use glam::{DQuat, DVec3};
 
 use super::camera::FEW;
-use super::fluid::drop_of;
+use super::fluid::{Plane, drop_of};
 use super::frame::{AROUND, AROUND_START, EDGE, FACET, Frame, HIDDEN, NONE, SLOT, SOLID};
 use super::solid::{Shape, Solid};
 use super::tank;
@@ -27,6 +27,8 @@ pub struct Scenery {
     pub tanks: Vec<Solid>,
     /// The first of those, where it is no container of the scene.
     pub bounded: Option<Solid>,
+    /// The sides of a plane at which a fluid ends.
+    pub plane: Plane,
     /// The radius of the drops of a fluid, by how far apart particles are at the start \[length\]; zero: as they are now.
     pub drop: f64,
     /// The fixed particles, by id: in a fluid those are walls.
@@ -55,6 +57,7 @@ impl Scenery {
     #[must_use]
     pub fn within(mut self, bounds: &Bounds) -> Self {
         let axes = usize::try_from(bounds.dimensions).unwrap_or(3).min(3);
+        self.plane = Plane::of(bounds);
         if !bounds.sides[..axes].contains(&Side::Open) {
             let flat = |x: DVec3| if axes < 3 { x.with_z(0.0) } else { x };
             let (low, high) = (flat(bounds.low), flat(bounds.high));

@@ -63,6 +63,11 @@ fn rings(tank: &Solid, frame: &Frame, radius: f64, half: f64) -> Vec<Edge> {
 }
 
 impl Edge {
+    /// Its ends \[pixels\].
+    #[cfg(feature = "images")]
+    pub fn places(&self) -> [DVec2; 2] {
+        self.ends.map(glam::DVec3::truncate)
+    }
     /// What the device holds of it.
     pub fn words(&self) -> impl Iterator<Item = u32> + use<> {
         #[expect(clippy::cast_possible_truncation, reason = "rounding to f32 is what the device does")]

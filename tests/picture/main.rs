@@ -2,10 +2,13 @@
 
 mod draw;
 mod fluids;
+#[cfg(feature = "scene")]
+mod frames;
 mod invariants;
 mod limits;
 mod looks;
 mod mutation;
+mod outlines;
 mod places;
 mod scenes;
 mod snapshots;

@@ -8,7 +8,7 @@ use motes::kernel::Array;
 use motes::life::Life;
 use motes::links::{Link, Links, Rod};
 use motes::motion::{Held, Hold};
-use motes::render::{Camera, Color, KEYS, Picture, Scaled, Scenery, Shape, Solid, Trail};
+use motes::render::{Camera, Color, KEYS, Picture, Plane, Scaled, Scenery, Shape, Solid, Trail};
 use motes::settings::{Settings, Value};
 
 use super::support::{self, Random};
@@ -238,7 +238,7 @@ fn pool(name: &'static str, words: &[(&'static str, &'static str)], numbers: &[(
     scene(name, &settings(&words, numbers), state, Trail::default(), &scenery)
 }
 
-/// A fluid in a plane, from above: a heap, a thin film and lone drops.
+/// A fluid in a plane, from above: a heap, a thin film, lone drops and walls.
 fn puddle() -> Scene {
     let mut random = Random::new(5);
     let mut state = State::default();
@@ -249,7 +249,11 @@ fn puddle() -> Scene {
     }
     let plane =
         Solid { shape: Shape::Box { half: DVec3::new(1.6, 1.2, 0.0) }, place: DVec3::ZERO, turn: DQuat::IDENTITY };
-    let scenery = Scenery { tanks: vec![plane], ..Scenery::default() };
+    // Walls, and a box that cuts off drops and goes on at its other side.
+    let held = Arc::new((0..40).collect());
+    let (low, high) = (DVec2::new(-1.3, -1.13), DVec2::new(1.42, 1.04));
+    let plane_of = Plane { low, high, periodic: [true; 2] };
+    let scenery = Scenery { tanks: vec![plane], held, plane: plane_of, ..Scenery::default() };
     let words = [("style", "fluid"), ("projection", "orthographic"), ("background", "day")];
     let settings = settings(&words, &[("drop", 0.12), ("clarity", 0.3)]).with("eye", Value::Vector(DVec3::Z));
     scene("fluid_from_above", &settings, state, Trail::default(), &scenery)
@@ -324,6 +328,8 @@ pub fn all() -> Vec<Scene> {
         tails("tails_at_night", "night", "group"),
         tails("headings_at_dusk", "dusk", "heading"),
         tails("ink_by_day", "day", "speed"),
+        tails("ink_on_paper", "paper", "group"),
+        tails("lights_in_the_sea", "sea", "heading"),
         density("density", false),
         density("number_density", true),
         tied("cloth_and_solids", &[], solids()),

@@ -2,7 +2,8 @@
 
 use super::super::fluid::ROUNDS;
 use super::super::frame::{
-    CREST, DYE, Frame, LEVEL, NEXT_DYE, NEXT_LEVEL, NEXT_THICKNESS, NONE, RIM, SOURCE, THICKNESS, VOLUME,
+    COVER, CREST, DYE, Frame, LEVEL, NEXT_COVER, NEXT_DYE, NEXT_LEVEL, NEXT_THICKNESS, NONE, RIM, SOURCE, THICKNESS,
+    VOLUME, WALL,
 };
 use super::super::scenery::Facets;
 use super::particles::layers;
@@ -14,12 +15,14 @@ use crate::primitives::fill;
 pub fn fluid(frame: &Frame, facets: &Facets, plan: &mut Plan) -> Result<(), Error> {
     plan.add(frame.simple("foam", &[crate::shader!("render/foam.wgsl")], frame.count, 1)?);
     plan.add(drops(frame)?);
+    plan.add(outline(frame)?);
     plan.add(frame.simple("surface", &[crate::shader!("render/surface.wgsl")], frame.area(), 1)?);
     plan.add(smooth(frame)?);
     let files = [
         crate::shader!("render/flat.wgsl"),
         crate::shader!("render/sky.wgsl"),
         crate::shader!("render/tank_edge.wgsl"),
+        crate::shader!("render/within.wgsl"),
         crate::shader!("render/water.wgsl"),
     ];
     let water = frame.simple("water", &files, frame.area(), 16 + 2 * u64::from(frame.water.edges))?;
@@ -30,7 +33,7 @@ pub fn fluid(frame: &Frame, facets: &Facets, plan: &mut Plan) -> Result<(), Erro
 /// The nearest front in each pixel, how much there is behind it, and its particle: two dispatches over all drops.
 fn drops(frame: &Frame) -> Result<Kernel, Error> {
     let mut passes = Vec::new();
-    for (field, value) in [(CREST, NONE), (VOLUME, 0), (RIM, 0), (SOURCE, NONE)] {
+    for (field, value) in [(CREST, NONE), (VOLUME, 0), (RIM, 0), (WALL, 0), (SOURCE, NONE)] {
         passes.extend(fill::passes(&field.name.into(), frame.area(), value)?);
     }
     let (threads, rows) = layers(frame);
@@ -40,7 +43,24 @@ fn drops(frame: &Frame) -> Result<Kernel, Error> {
         pass.constants = vec![("ROWS", f64::from(rows))];
         passes.push(pass);
     }
+    if frame.water.turn == 0.0 {
+        let mut pass =
+            frame.pass(&[crate::shader!("render/disc.wgsl"), crate::shader!("render/wall.wgsl")], threads, 64)?;
+        pass.constants = vec![("ROWS", f64::from(rows)), ("WALLS", 1.0)];
+        passes.push(pass);
+    }
     Ok(frame.kernel("drops", passes))
+}
+
+/// A smooth outline.
+fn outline(frame: &Frame) -> Result<Kernel, Error> {
+    let files = [crate::shader!("render/within.wgsl"), crate::shader!("render/cover.wgsl")];
+    let covers = frame.pass(&files, Threads::new(frame.area()), 4)?;
+    let each = 4 * u64::from(frame.water.soft);
+    let across = frame.pass(&[crate::shader!("render/soft.wgsl")], Threads::new(frame.area()), each)?;
+    let mut down = across.clone().on(&[("cover", NEXT_COVER.name.into()), ("next_cover", COVER.name.into())]);
+    down.constants = vec![("DOWN", 1.0)];
+    Ok(Kernel { scratch: vec![NEXT_COVER.name.into()], ..frame.kernel("outline", vec![covers, across, down]) })
 }
 
 /// A smooth surface: twice as many dispatches as rounds.
@@ -56,7 +76,8 @@ fn smooth(frame: &Frame) -> Result<Kernel, Error> {
         ("next_dye", DYE.name.into()),
     ]);
     down.constants = vec![("DOWN", 1.0)];
-    let passes = (0..ROUNDS).flat_map(|_| [across.clone(), down.clone()]).collect();
+    let mut passes: Vec<_> = (0..ROUNDS).flat_map(|_| [across.clone(), down.clone()]).collect();
+    passes[..2].iter_mut().for_each(|pass| pass.constants.push(("FILL", 1.0)));
     let scratch = vec![NEXT_LEVEL.name.into(), NEXT_THICKNESS.name.into(), NEXT_DYE.name.into()];
     Ok(Kernel { scratch, ..frame.kernel("smooth", passes) })
 }

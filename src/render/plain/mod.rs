@@ -40,6 +40,8 @@ pub struct Canvas<'a> {
     pub discs: Vec<Option<Disc>>,
     /// Those that are not active, or for which a surface or a line stands.
     hidden: Vec<bool>,
+    /// Of those of the latter that would be drawn.
+    walls: Vec<Disc>,
     color: Vec<DVec3>,
     /// What is behind particles, and how much of each pixel it covers.
     pub behind: Vec<DVec4>,
@@ -70,6 +72,7 @@ pub fn draw(host: &Host, picture: &Picture, choose: impl FnOnce(Exposure) -> Exp
         values: values(host, picture)?,
         discs: Vec::new(),
         hidden: Vec::new(),
+        walls: Vec::new(),
         color: Vec::new(),
         behind: vec![DVec4::ZERO; area],
         front: vec![NEVER; area],

@@ -35,6 +35,7 @@ impl Canvas<'_> {
     pub(super) fn stand(&mut self) {
         let facets = self.picture.facets();
         for id in facets.hidden() {
+            self.walls.extend(self.discs[id].filter(|disc| disc.radius > 0.0));
             self.hide(id);
         }
         if facets.is_empty() {

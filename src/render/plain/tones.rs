@@ -8,7 +8,6 @@ use super::super::frame::{Frame, SHRINK, middle, whole};
 use super::super::light::LAMP;
 use super::Canvas;
 
-const TINT: f64 = 0.13;
 /// Between the lamp and the eye.
 const HALFWAY: DVec3 = DVec3::new(-0.265_035, 0.331_294, 0.905_537);
 
@@ -18,11 +17,18 @@ const AMBER: DVec3 = DVec3::new(0.94, 0.68, 0.46);
 const SUN: DVec3 = DVec3::new(0.10, 0.09, 0.01);
 const ZENITH: DVec3 = DVec3::new(0.60, 0.72, 0.86);
 const HAZE: DVec3 = DVec3::new(0.93, 0.94, 0.95);
+const SEA: [DVec3; 2] = [DVec3::new(0.06, 0.31, 0.36), DVec3::new(0.015, 0.12, 0.20)];
 const NIGHT: [DVec3; 2] = [DVec3::new(0.036, 0.043, 0.072), DVec3::new(0.008, 0.009, 0.018)];
 
 /// The sky at a place in the picture.
 pub fn background(frame: &Frame, place: DVec2) -> DVec3 {
     let part = place / frame.size();
+    if frame.sky > 3.0 {
+        return DVec3::ONE;
+    }
+    if frame.sky > 2.0 {
+        return SEA[0].lerp(SEA[1], smoothstep(0.0, 0.5, (part - 0.5).length_squared()));
+    }
     if frame.ink == 0.0 {
         let off = (part - 0.5).length_squared();
         return frame.sky * NIGHT[0].lerp(NIGHT[1], (2.0 * off).clamp(0.0, 1.0));
@@ -35,7 +41,7 @@ pub fn background(frame: &Frame, place: DVec2) -> DVec3 {
     air + SUN * (-off.length_squared()).exp2()
 }
 
-fn smoothstep(low: f64, high: f64, x: f64) -> f64 {
+pub fn smoothstep(low: f64, high: f64, x: f64) -> f64 {
     let t = ((x - low) / (high - low)).clamp(0.0, 1.0);
     t * t * (3.0 - 2.0 * t)
 }
@@ -68,7 +74,7 @@ impl Canvas<'_> {
         if brightest > 0.0 {
             let toned = exposure.slope() * (1.0 + brightest / exposure.knee).log2();
             c = if frame.ink > 0.0 {
-                c.lerp(light * (TINT / brightest), frame.ink * (exposure.body(frame) * toned).min(1.0))
+                c.lerp(light * (frame.tint / brightest), frame.ink * (exposure.body(frame) * toned).min(1.0))
             } else {
                 let bleach = (toned - 0.55).clamp(0.0, frame.bleach);
                 screen(c, (light * (toned / brightest)).lerp(DVec3::splat(toned), bleach).min(DVec3::ONE))
@@ -77,7 +83,11 @@ impl Canvas<'_> {
         let (bright, id) = self.trail[at];
         if bright > 0.0 {
             let trail = self.color[id];
-            c = if frame.ink > 0.0 { c.lerp(TINT * trail, frame.ink * bright) } else { screen(c, trail * bright) };
+            c = if frame.ink > 0.0 {
+                c.lerp(frame.tint * trail, frame.ink * bright)
+            } else {
+                screen(c, trail * bright)
+            };
         }
         c.clamp(DVec3::ZERO, DVec3::ONE)
     }
