@@ -25,10 +25,10 @@ pub struct Loaded {
 
 /// Loads the scene of the arguments with additional overrides; `--auto-substeps` divides its steps so that its springs are stable.
 pub async fn load(args: &SceneArgs, more: &[String]) -> Result<Loaded, Failure> {
-    let mut loaded = judge(engine::load_with(args, more)?).await?;
     if !args.auto_substeps {
-        return Ok(loaded.with_unsafe_steps());
+        return load_from(&Source::find(&args.scene)?, args, more).await;
     }
+    let mut loaded = judge(engine::load_with(args, more)?).await?;
     let (dt, steps, every) = (loaded.scene.dt, loaded.scene.steps, loaded.scene.output.every);
     let parts = loaded.verdict.map_or(Some(1), |verdict| verdict.substeps(dt));
     let text = match (loaded.verdict, parts) {
@@ -83,8 +83,8 @@ pub async fn load(args: &SceneArgs, more: &[String]) -> Result<Loaded, Failure> 
 }
 
 /// Loads a scene of another source with the same arguments.
-pub async fn load_from(source: &Source, args: &SceneArgs) -> Result<Loaded, Failure> {
-    Ok(judge(engine::load_from(source, args, &[])?).await?.with_unsafe_steps())
+pub async fn load_from(source: &Source, args: &SceneArgs, more: &[String]) -> Result<Loaded, Failure> {
+    Ok(judge(engine::load_from(source, args, more)?).await?.with_unsafe_steps())
 }
 
 impl Loaded {

@@ -62,7 +62,7 @@ async fn load(args: &ViewArgs, origin: &Origin) -> Result<super::load::Loaded, F
         auto_substeps: false,
         device: DeviceArgs { backend: BackendChoice::Gpu, adapter: args.adapter.clone() },
     };
-    super::load::load_from(&origin.source, &scene).await
+    super::load::load_from(&origin.source, &scene, &[]).await
 }
 
 #[cfg(feature = "view")]
