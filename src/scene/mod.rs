@@ -57,6 +57,7 @@ use crate::settings::Settings;
 use crate::simulation::Setup;
 use crate::state::State;
 
+#[doc(hidden)]
 pub use beside::with_file;
 #[doc(hidden)]
 pub use builtin::{Builtin, SCENES};
