@@ -4,8 +4,8 @@
 use std::collections::HashSet;
 
 use motes::forces::{Custom, Over};
-use motes::kernel::{Flag, Kernel, Machine, Pass, Shader, repeat};
-use motes::render::{Exposure, Picture, Scenery, Trail};
+use motes::kernel::{Column, Columns, Flag, Kernel, Kind, Machine, Pass, Shader, repeat};
+use motes::render::{Color, Exposure, Picture, Scaled, Scenery, Trail};
 use motes::selftest::Questions;
 use motes::settings::Value;
 use motes::tree::Opening;
@@ -70,7 +70,21 @@ fn pictures() -> Vec<Kernel> {
         let plans = [picture.plan(), picture.development(Exposure { knee: 0.1, white: 1.3 })];
         plans.map(|plan| plan.expect("a plan").kernels).concat()
     });
-    pictures.concat()
+    pictures.into_iter().chain([columns()]).flatten().collect()
+}
+
+/// Colours by columns, in every way in which they lie on a device.
+fn columns() -> Vec<Kernel> {
+    let scene = with("kepler", &["picture.style=balls"]);
+    let known = Columns::default();
+    let own = [Column::new("heat", Kind::Scalar, "", ""), Column::new("shell", Kind::Whole, "", "")];
+    let base = ["mass", "velocity"].map(|name| known.get(name).expect("a column").clone());
+    let of = |column: Column| {
+        let mut picture = Picture::new(&scene.picture, &scene.particles, &[], Trail::new(0)).expect("a picture");
+        picture.paint(Color::Value(Box::new(Scaled::of(column, [1.0, 2.0]))));
+        picture.plan().expect("a plan").kernels
+    };
+    own.into_iter().chain(base).flat_map(of).collect()
 }
 
 #[test]
