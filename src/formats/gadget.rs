@@ -3,7 +3,6 @@
 //!
 //! The type of a particle is its species. Numbers stay in the units of the file, which are comoving where it is cosmological.
 
-
 use super::binary::{Type, bytes_of};
 use super::sheet::{self, ID, Place, Sheet};
 use super::{Format, Input, input};

@@ -15,8 +15,8 @@ pub const KEYS: &[Key] = &[
     EACH,
 ];
 
-/// `tweezers`: φ = −U exp(−2 ρ² / w²) at the distance ρ from a line, the trap of a beam with a Gaussian profile (Ashkin et al. 1986), whose width here is the
-/// same all along. It pulls most, by 2 U / (√e w), at ρ = w / 2.
+/// `tweezers`: φ = −U exp(−2 ρ² / w²) at the distance ρ from a line, the trap of a beam with a Gaussian profile (Ashkin et al. 1986) of the same
+/// width all along. It pulls most, by 2 U / (√e w), at ρ = w / 2.
 #[derive(Clone)]
 pub struct Tweezers(Settings);
 

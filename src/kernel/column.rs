@@ -170,6 +170,11 @@ impl Shape {
 }
 
 impl Column {
+    /// A text with its unit behind it, if it has one.
+    #[must_use]
+    pub fn with_unit(&self, text: &str) -> String {
+        if self.unit.is_empty() { text.to_owned() } else { format!("{text} [{}]", self.unit) }
+    }
     /// Its kind and its unit, as messages state them.
     pub(crate) fn described(&self) -> String {
         let kind = self.kind.name();

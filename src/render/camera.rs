@@ -75,10 +75,8 @@ impl Camera {
     #[must_use]
     pub fn ray(&self, across: f64, up: f64) -> (DVec3, DVec3) {
         let beside = self.extent * (across * self.right + up * self.up);
-        (
-            self.center + beside,
-            (beside - self.distance * self.back).try_normalize().filter(|_| self.distance > 0.0).unwrap_or(-self.back),
-        )
+        let away = if self.distance > 0.0 { beside - self.distance * self.back } else { -self.back };
+        (self.center + beside, away.normalize_or(-self.back))
     }
     fn reach(&mut self, extent: f64, perspective: bool) {
         self.extent = extent;

@@ -42,7 +42,7 @@ pub use frame::Frame;
 pub use keys::KEYS;
 #[cfg(feature = "panel")]
 pub use live::Live;
-pub use palette::{Color, Scaled, group_color, pack, value_color};
+pub use palette::{Color, Scaled, bytes, group_color, pack, value_color};
 pub use passes::absent;
 pub use picture::Picture;
 pub use scenery::Scenery;

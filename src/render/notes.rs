@@ -225,13 +225,7 @@ impl Pen<'_> {
                 self.ramp(["speed", &number(slow.max(0.0)), &number(if *fast < 1e-30 { 0.0 } else { *fast })], at);
             }
             Color::Value(scaled) => {
-                let unit = scaled.column.unit.as_ref();
-                let title = if unit.is_empty() {
-                    scaled.column.name.to_string()
-                } else {
-                    format!("{} [{unit}]", scaled.column.name)
-                };
-                self.ramp([&title, &number(scaled.low), &number(scaled.high)], at);
+                self.ramp([&scaled.title(), &number(scaled.low), &number(scaled.high)], at);
             }
             Color::Heading => {
                 let radius = 1.2 * self.line;

@@ -66,6 +66,11 @@ impl Scaled {
         let logarithmic = low > 0.0 && high / low > DECADES;
         Self { column, low, high, logarithmic }
     }
+    /// Its name and its unit.
+    #[must_use]
+    pub fn title(&self) -> String {
+        self.column.with_unit(&self.column.name)
+    }
     /// The ends as shaders have them.
     pub(super) fn ends(&self) -> (f64, f64) {
         if self.logarithmic { (self.low.ln(), self.high.ln()) } else { (self.low, self.high) }
@@ -109,6 +114,13 @@ fn ends(values: impl IntoIterator<Item = f64>) -> (f64, f64) {
 #[must_use]
 pub fn pack(rgb: [u8; 3]) -> u32 {
     u32::from_le_bytes([rgb[0], rgb[1], rgb[2], 255])
+}
+
+/// A colour in bytes.
+#[must_use]
+pub fn bytes(rgb: DVec3) -> [u8; 3] {
+    let byte = |x: f64| u8::try_from(whole((255.0 * x).round().clamp(0.0, 255.0))).unwrap_or(u8::MAX);
+    rgb.to_array().map(byte)
 }
 
 /// The colour of a group.

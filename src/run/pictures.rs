@@ -152,16 +152,12 @@ impl Pictures {
     pub fn surround(&mut self, setup: &Setup) {
         self.scenery = scenery(setup);
     }
-    /// Changes one of them.
-    pub fn set(&mut self, key: &'static str, value: Value) {
+    /// Changes one of them; returns the old value.
+    pub fn set(&mut self, key: &'static str, value: Value) -> Option<Value> {
         if let Some((unframed, _)) = &mut self.unframed {
             unframed.0.insert(key, value.clone());
         }
-        self.picture.0.insert(key, value);
-    }
-    /// Takes other settings.
-    pub fn restore(&mut self, settings: Settings) {
-        self.picture = settings;
+        self.picture.0.insert(key, value)
     }
     /// Takes another size \[pixels\], in which all that the scene's picture shows has its place.
     pub fn size(&mut self, width: u32, height: u32) {

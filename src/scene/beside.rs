@@ -52,7 +52,8 @@ pub fn with_file(text: &str, name: &str, law: &str) -> Result<String, Error> {
 }
 
 /// Whether a file is one of WGSL.
-fn is_law(name: &str) -> bool {
+#[must_use]
+pub fn is_law(name: &str) -> bool {
     Path::new(name).extension().is_some_and(|ending| ending.eq_ignore_ascii_case("wgsl"))
 }
 

@@ -58,7 +58,7 @@ use crate::simulation::Setup;
 use crate::state::State;
 
 #[doc(hidden)]
-pub use beside::with_file;
+pub use beside::{is_law, with_file};
 #[doc(hidden)]
 pub use builtin::{Builtin, SCENES};
 #[doc(hidden)]

@@ -6,7 +6,7 @@ use super::Simulation;
 use crate::error::Error;
 use crate::kernel::Backend;
 use crate::kernel::Shape;
-use crate::render::{self, Color, Film, Image, Picture, Scaled, pack};
+use crate::render::{self, Color, Film, Image, Picture, Scaled, bytes, pack};
 
 impl<B: Backend> Simulation<B> {
     /// Draws the current state. Only the picture is read back.
@@ -65,18 +65,18 @@ impl<B: Backend> Simulation<B> {
         // Walls are not what one looks at, where there is anything else.
         let free = values.iter().zip(&fixed).filter(|(_, fixed)| !**fixed).map(|(value, _)| *value);
         let free: Vec<f64> = free.collect();
-        let sizes = Scaled::sizes(&self.read_column(&column.name).await?);
-        let shown = [&free, &values, &sizes].into_iter().find(|values| !values.is_empty());
+        // By rows, which a state may have in another order, or not have at all.
+        let rows = if on_device && !values.is_empty() {
+            Vec::new()
+        } else {
+            Scaled::sizes(&self.read_column(&column.name).await?)
+        };
+        let shown = [&free, &values, &rows].into_iter().find(|values| !values.is_empty());
         let scaled = Scaled::of(column, shown.into_iter().flatten().copied());
         picture.paint(if on_device {
             Color::Value(Box::new(scaled))
         } else {
-            let byte = |x: f64| {
-                #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "between two bytes")]
-                let byte = (255.0 * x).round().clamp(0.0, 255.0) as u8;
-                byte
-            };
-            Color::Given(sizes.iter().map(|x| pack(scaled.color(*x).to_array().map(byte))).collect())
+            Color::Given(rows.iter().map(|x| pack(bytes(scaled.color(*x)))).collect())
         });
         Ok(())
     }

@@ -126,10 +126,9 @@ impl<B: Backend> Stage<B> {
         self.add(Some(ball.clone()), ball).await
     }
     async fn add(&mut self, shown: Option<Box<dyn Component>>, force: Box<dyn Component>) -> Result<(), Error> {
-        let mut setup = self.simulation.setup().clone();
-        setup.forces.push(force);
-        setup.state = self.simulation.snapshot().await?;
-        self.go_on(&setup).await?;
+        let mut forces = self.simulation.setup().forces.clone();
+        forces.push(force);
+        self.go_on(forces).await?;
         self.added.forces.push(shown);
         self.surround();
         Ok(())
@@ -137,10 +136,9 @@ impl<B: Backend> Stage<B> {
     /// Removes the last ball.
     pub async fn remove(&mut self) -> Result<(), Error> {
         let Some(place) = self.added.forces.iter().rposition(Option::is_some) else { return Ok(()) };
-        let mut setup = self.simulation.setup().clone();
-        setup.forces.remove(self.start.forces.len() + place);
-        setup.state = self.simulation.snapshot().await?;
-        self.go_on(&setup).await?;
+        let mut forces = self.simulation.setup().forces.clone();
+        forces.remove(self.start.forces.len() + place);
+        self.go_on(forces).await?;
         self.added.forces.remove(place);
         self.surround();
         Ok(())

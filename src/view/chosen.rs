@@ -159,6 +159,5 @@ fn row(column: &Column, values: &Array, place: usize) -> Option<Row> {
         (Array::Float(values), _) => values.get(place).map(|x| (digits(*x), *x))?,
         (Array::Uint(values), _) => values.get(place).map(|n| (n.to_string(), f64::from(*n)))?,
     };
-    let unit = if column.unit.is_empty() { String::new() } else { format!(" [{}]", column.unit) };
-    Some(Row { column: column.name.to_string(), about: format!("{}{unit}", column.about), text, size })
+    Some(Row { column: column.name.to_string(), about: column.with_unit(&column.about), text, size })
 }

@@ -1,8 +1,8 @@
 //! The panel, and the place of the picture.
 
 use egui::{
-    CentralPanel, CollapsingHeader, Color32, ComboBox, Frame, Image, Panel, PointerButton, Rect, Response, ScrollArea,
-    Sense, Slider, Stroke, Ui, Vec2, load::SizedTexture, pos2,
+    CentralPanel, CollapsingHeader, Color32, ComboBox, Frame, Image, Panel, PointerButton, Pos2, Rect, Response,
+    ScrollArea, Sense, Slider, Stroke, Ui, Vec2, load::SizedTexture, pos2,
 };
 
 use super::action::Action;
@@ -236,7 +236,6 @@ fn picture<B: Backend>(view: &mut View<B>, ui: &mut Ui) {
         let seen = Rect::from_min_max(pos2(0.5 - 0.5 * part, 0.0), pos2(0.5 + 0.5 * part, 1.0));
         Image::from_texture(SizedTexture::new(id, Vec2::new(width as f32, height as f32))).uv(seen).paint_at(ui, place);
     }
-    let half = f64::from(0.5 * place.height()).max(1.0);
     legend::show(&view.stage.picture().color, ui, place);
     mark(view, ui, place);
     drag(view, ui, &response, place);
@@ -245,8 +244,7 @@ fn picture<B: Backend>(view: &mut View<B>, ui: &mut Ui) {
     } else if response.clicked()
         && let Some(pointer) = response.interact_pointer_pos()
     {
-        let from = pointer - place.center();
-        let (across, up) = (f64::from(from.x) / half, -f64::from(from.y) / half);
+        let [across, up] = spot(pointer - place.center(), place);
         view.actions.push(match view.hand.tool {
             Tool::Ball => Action::Place { across, up, radius: 0.0 },
             _ => Action::Choose { across, up },
@@ -256,24 +254,32 @@ fn picture<B: Backend>(view: &mut View<B>, ui: &mut Ui) {
         let (wheel, pinch) = ui.input(|input| (input.smooth_scroll_delta.y, input.zoom_delta()));
         let factor = (-WHEEL * f64::from(wheel)).exp() / f64::from(pinch);
         if (factor - 1.0).abs() > 1e-6 {
-            let from = pointer - place.center();
-            let (across, up) = (f64::from(from.x) / half, -f64::from(from.y) / half);
+            let [across, up] = spot(pointer - place.center(), place);
             view.actions.push(Action::Zoom { factor, across, up });
         }
     }
 }
 
+/// A way on the screen, to the right and up in halves of the height of the picture.
+fn spot(way: Vec2, place: Rect) -> [f64; 2] {
+    let half = f64::from(0.5 * place.height()).max(1.0);
+    [f64::from(way.x) / half, -f64::from(way.y) / half]
+}
+
+/// Where a spot of the picture is on the screen.
+#[expect(clippy::cast_possible_truncation, reason = "a place on the screen")]
+fn point([across, up]: [f64; 2], place: Rect) -> Pos2 {
+    let half = 0.5 * place.height();
+    place.center() + Vec2::new(across as f32 * half, -up as f32 * half)
+}
+
 /// A drag across the picture: of the camera, or with a tool.
 fn drag<B: Backend>(view: &mut View<B>, ui: &Ui, response: &Response, place: Rect) {
-    let half = f64::from(0.5 * place.height()).max(1.0);
     let by = response.drag_delta();
-    let (across, up) = (f64::from(by.x) / half, -f64::from(by.y) / half);
+    let [across, up] = spot(by, place);
     let shift = ui.input(|input| input.modifiers.shift);
     let primary = response.dragged_by(PointerButton::Primary) && !shift;
-    let at = response.interact_pointer_pos().map(|pointer| {
-        let from = pointer - place.center();
-        [f64::from(from.x) / half, -f64::from(from.y) / half]
-    });
+    let at = response.interact_pointer_pos().map(|pointer| spot(pointer - place.center(), place));
     if let (Some([across, up]), true) = (at, primary && view.hand.tool != Tool::Look) {
         if view.hand.tool == Tool::Ball {
             view.hand.begun.get_or_insert([across, up]);
@@ -311,7 +317,7 @@ fn outline<B: Backend>(view: &View<B>, ui: &Ui, response: &Response, place: Rect
     let (middle, radius) = match (view.hand.tool, view.hand.begun) {
         (Tool::Pull | Tool::Push, _) => (pointer, view.hand.reach as f32 * half),
         (Tool::Ball, Some([across, up])) => {
-            let middle = place.center() + Vec2::new(across as f32 * half, -up as f32 * half);
+            let middle = point([across, up], place);
             (middle, (pointer - middle).length())
         }
         _ => return,
@@ -322,13 +328,11 @@ fn outline<B: Backend>(view: &View<B>, ui: &Ui, response: &Response, place: Rect
 }
 
 /// A ring around the chosen particle.
-#[expect(clippy::cast_possible_truncation, reason = "a place on the screen")]
 fn mark<B: Backend>(view: &View<B>, ui: &Ui, place: Rect) {
     let position = view.chosen.as_ref().and_then(|chosen| chosen.position);
     let seen = position.and_then(|x| view.stage.picture().frame.camera.sees(x));
-    let Some([across, up]) = seen else { return };
-    let half = 0.5 * place.height();
-    let at = place.center() + Vec2::new(across as f32 * half, -up as f32 * half);
+    let Some(seen) = seen else { return };
+    let at = point(seen, place);
     let painter = ui.painter_at(place);
     // Light on dark, and dark on light.
     painter.circle_stroke(at, RING + 1.5, Stroke::new(1.5, Color32::from_black_alpha(180)));

@@ -3,7 +3,7 @@
 use egui::{Align2, Color32, FontId, Rect, Ui, Vec2, pos2, vec2};
 
 use super::controls::digits;
-use crate::render::{Color, value_color};
+use crate::render::{Color, bytes, value_color};
 
 /// Its size, and its distance from the edges of the picture \[points\].
 const SIZE: Vec2 = vec2(180.0, 8.0);
@@ -16,10 +16,8 @@ pub fn show(color: &Color, ui: &Ui, place: Rect) {
     let (title, low, high) = match color {
         Color::Speed { slow, fast } => ("speed".to_owned(), *slow, *fast),
         Color::Value(scaled) => {
-            let column = &scaled.column;
-            let unit = if column.unit.is_empty() { String::new() } else { format!(" [{}]", column.unit) };
             let logarithmic = if scaled.logarithmic { ", logarithmic" } else { "" };
-            (format!("{}{unit}{logarithmic}", column.name), scaled.low, scaled.high)
+            (scaled.title() + logarithmic, scaled.low, scaled.high)
         }
         Color::Given(_) | Color::Column(_) | Color::Heading => return,
     };
@@ -33,9 +31,7 @@ pub fn show(color: &Color, ui: &Ui, place: Rect) {
     for part in 0..PARTS {
         let at = |n: u16| bar.left() + bar.width() * f32::from(n) / f32::from(PARTS);
         let from = Rect::from_x_y_ranges(at(part)..=at(part + 1) + 0.5, bar.y_range());
-        let rgb = value_color((f64::from(part) + 0.5) / f64::from(PARTS)).to_array();
-        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a part of 255")]
-        let [r, g, b] = rgb.map(|x| (255.0 * x).round() as u8);
+        let [r, g, b] = bytes(value_color((f64::from(part) + 0.5) / f64::from(PARTS)));
         painter.rect_filled(from, 0.0, Color32::from_rgb(r, g, b));
     }
     let font = || FontId::proportional(12.0);

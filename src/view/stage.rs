@@ -4,6 +4,7 @@ use glam::{DVec2, DVec3, DVec4};
 
 use super::Make;
 use super::added::Added;
+use crate::component::Component;
 use crate::error::Error;
 use crate::kernel::{Array, Backend, POSITION, Shape};
 use crate::render::{Camera, Image, Live, PROJECTED, Picture, Trail};
@@ -79,8 +80,7 @@ impl<B: Backend> Stage<B> {
     /// The columns that colours can show, and what they are.
     pub fn shown_columns(&self) -> Vec<(String, String)> {
         let columns = self.simulation.columns().iter().filter(|column| column.shape == Shape::Particle);
-        let unit = |unit: &str| if unit.is_empty() { String::new() } else { format!(" [{unit}]") };
-        columns.map(|column| (column.name.to_string(), format!("{}{}", column.about, unit(&column.unit)))).collect()
+        columns.map(|column| (column.name.to_string(), column.with_unit(&column.about))).collect()
     }
     pub fn number(&self, key: &str) -> f64 {
         self.pictures.looks().number(key)
@@ -158,11 +158,10 @@ impl<B: Backend> Stage<B> {
     }
     /// Changes a key of the picture.
     pub async fn look(&mut self, key: &'static str, value: Value) -> Result<(), Error> {
-        let old = self.pictures.looks().clone();
-        self.pictures.set(key, value);
+        let old = self.pictures.set(key, value);
         let composed = self.compose_anew().await;
-        if composed.is_err() {
-            self.pictures.restore(old);
+        if let (Err(_), Some(old)) = (&composed, old) {
+            self.pictures.set(key, old);
             self.compose()?;
         }
         composed
@@ -187,17 +186,17 @@ impl<B: Backend> Stage<B> {
         let Err(refused) = self.simulation.set(force, setting, value.clone()) else { return Ok(None) };
         let place = self.simulation.settings().iter().position(|(name, _)| name == force);
         let Some(place) = place else { return Err(refused) };
-        let mut setup = self.simulation.setup().clone();
+        let mut forces = self.simulation.setup().forces.clone();
         // What is invalid stays refused.
-        setup.forces[place] = setup.forces[place].changed(setting, &value.into())?;
-        setup.state = self.simulation.snapshot().await?;
-        self.go_on(&setup).await?;
+        forces[place] = forces[place].changed(setting, &value.into())?;
+        self.go_on(forces).await?;
         Ok(Some(format!("`{setting}` of `{force}` changes what kernels do: they were compiled anew")))
     }
-    /// Goes on with another setup at the present state.
-    pub(super) async fn go_on(&mut self, setup: &Setup) -> Result<(), Error> {
-        let setup = setup.in_its_box()?.into_owned();
-        let mut simulation = (self.make)(&setup)?;
+    /// Goes on with other forces at the present state.
+    pub(super) async fn go_on(&mut self, forces: Vec<Box<dyn Component>>) -> Result<(), Error> {
+        let state = self.simulation.snapshot().await?;
+        let setup = Setup { state, forces, ..self.simulation.setup().clone() };
+        let mut simulation = (self.make)(setup.in_its_box()?.as_ref())?;
         simulation.check().await?;
         self.simulation = simulation;
         Ok(())

@@ -74,8 +74,7 @@ impl Origin {
     }
     /// The same with a file beside it.
     fn beside(&self, file: &str) -> Result<Self, Failure> {
-        let source = self.source.beside(file)?;
-        let is_law = std::path::Path::new(file).extension().is_some_and(|ending| ending.eq_ignore_ascii_case("wgsl"));
-        Ok(Self { source, own: self.own, outside: true, replaced: self.replaced || !is_law })
+        let (source, replaced) = (self.source.beside(file)?, self.replaced || !motes::scene::is_law(file));
+        Ok(Self { source, own: self.own, outside: true, replaced })
     }
 }

@@ -56,7 +56,8 @@ fn drops(frame: &Frame) -> Result<Kernel, Error> {
 fn outline(frame: &Frame) -> Result<Kernel, Error> {
     let files = [crate::shader!("render/within.wgsl"), crate::shader!("render/cover.wgsl")];
     let covers = frame.pass(&files, Threads::new(frame.area()), 4)?;
-    let each = 4 * u64::from(frame.water.soft);
+    // As far as either outline is made smooth.
+    let each = 4 * u64::from(frame.water.soft.max(frame.water.softer));
     let across = frame.pass(&[crate::shader!("render/soft.wgsl")], Threads::new(frame.area()), each)?;
     let mut down = across.clone().on(&[("cover", NEXT_COVER.name.into()), ("next_cover", COVER.name.into())]);
     down.constants = vec![("DOWN", 1.0)];

@@ -7,7 +7,7 @@ use glam::DVec4;
 use super::super::frame::{BINS, Frame, NEVER, PROJECTED, whole};
 use super::super::{Color, Picture, Scaled};
 use crate::error::Error;
-use crate::kernel::{Host, Kernel, Kind, Plan, Shader, Threads};
+use crate::kernel::{Host, Kernel, Kind, Plan, Shader, Source, Threads, VELOCITY};
 
 /// Iterations of one invocation's loops in one layer, at most: half of the 65 535 that lavapipe allows.
 const TURNS: u32 = 1 << 15;
@@ -45,19 +45,30 @@ pub fn absent(count: u32) -> Result<Kernel, Error> {
 
 /// Colours that are no given ones.
 pub fn color(picture: &Picture, plan: &mut Plan) -> Result<(), Error> {
-    let scale = crate::shader!("render/scale.wgsl");
-    let (name, files) = match &picture.color {
-        Color::Speed { .. } => ("color by speed", vec![scale, crate::shader!("render/speed_color.wgsl")]),
-        Color::Heading => ("color by heading", vec![crate::shader!("render/heading_color.wgsl")]),
-        Color::Value(scaled) => return by_column(picture, scaled, plan),
+    let heading = [crate::shader!("render/heading_color.wgsl")];
+    plan.add(match &picture.color {
+        Color::Speed { .. } => {
+            let length = crate::shader!("render/column_length.wgsl").renamed("column_buffer", VELOCITY.name);
+            on_scale(picture, "color by speed", length, false)?
+        }
+        Color::Heading => picture.frame.simple("color by heading", &heading, picture.frame.count, 4)?,
+        Color::Value(scaled) => by_column(picture, scaled)?,
         Color::Given(_) | Color::Column(_) => return Ok(()),
-    };
-    plan.add(picture.frame.simple(name, &files, picture.frame.count, 4)?);
+    });
     Ok(())
 }
 
+/// Colours on the scale of values, which a file gives.
+fn on_scale(picture: &Picture, name: &str, value: Source, logarithmic: bool) -> Result<Kernel, Error> {
+    let files = [crate::shader!("render/scale.wgsl"), value, crate::shader!("render/column_color.wgsl")];
+    let mut kernel = picture.frame.simple(name, &files, picture.frame.count, 4)?;
+    let logarithmic = ("LOGARITHMIC", f64::from(u8::from(logarithmic)));
+    kernel.passes.iter_mut().for_each(|pass| pass.constants.push(logarithmic));
+    Ok(kernel)
+}
+
 /// Colours by a column, in whatever way it lies on the device.
-fn by_column(picture: &Picture, scaled: &Scaled, plan: &mut Plan) -> Result<(), Error> {
+fn by_column(picture: &Picture, scaled: &Scaled) -> Result<Kernel, Error> {
     let place = &scaled.column.place;
     let alone = place.buffer == scaled.column.name;
     let file = match scaled.column.kind {
@@ -67,16 +78,12 @@ fn by_column(picture: &Picture, scaled: &Scaled, plan: &mut Plan) -> Result<(), 
         Kind::Vector | Kind::Quaternion => crate::shader!("render/column_length.wgsl"),
     };
     let file = file.renamed("column_buffer", &place.buffer);
-    let files = [crate::shader!("render/scale.wgsl"), file, crate::shader!("render/column_color.wgsl")];
-    let mut kernel = picture.frame.simple("color by column", &files, picture.frame.count, 4)?;
-    for pass in &mut kernel.passes {
-        pass.constants.push(("LOGARITHMIC", f64::from(u8::from(scaled.logarithmic))));
-        if scaled.column.kind == Kind::Scalar && !alone {
-            pass.constants.push(("COMPONENT", f64::from(place.component)));
-        }
+    let mut kernel = on_scale(picture, "color by column", file, scaled.logarithmic)?;
+    if scaled.column.kind == Kind::Scalar && !alone {
+        let component = ("COMPONENT", f64::from(place.component));
+        kernel.passes.iter_mut().for_each(|pass| pass.constants.push(component));
     }
-    plan.add(kernel);
-    Ok(())
+    Ok(kernel)
 }
 
 /// A dispatch over all discs, in layers of so many rows.
