@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 use std::rc::Rc;
 
-use motes::scene::{SCENES, Source};
+use motes::scene::{Beside, SCENES, Source};
 use wasm_bindgen::prelude::*;
 use web_sys::HtmlCanvasElement;
 
@@ -14,7 +14,19 @@ use super::viewer::Wanted;
 #[wasm_bindgen]
 pub struct Viewer(Rc<Shell>);
 
-/// The text of a scene in which a file has a part: particles in the place of its own, or one more law, of which the text is needed.
+/// What a file can be for a scene, by its extension: `law`, `particles`, `plan`, or nothing.
+#[wasm_bindgen(js_name = kindOf)]
+#[must_use]
+pub fn kind_of(name: &str) -> Option<String> {
+    let word = match Beside::of(name)? {
+        Beside::Law => "law",
+        Beside::Particles => "particles",
+        Beside::Plan => "plan",
+    };
+    Some(word.to_owned())
+}
+
+/// The text of a scene in which a file has a part: particles or a floor plan in the place of its own, or one more law, of which the text is needed.
 ///
 /// # Errors
 /// When the file is of another kind, or the scene is no TOML.
@@ -41,6 +53,8 @@ pub struct Status {
     pub scene: String,
     /// Steps done.
     pub steps: f64,
+    /// Whether it stands still.
+    pub paused: bool,
     /// What is said to the user.
     pub message: String,
     /// Why the run has ended, if it has.
@@ -78,7 +92,7 @@ impl Viewer {
         self.0.viewer.lock().await.hold(name, bytes);
     }
     /// Opens a scene: a text of this name with the files that it names (name and text, one after the other), values in the form of `--set`,
-    /// and a factor of the number of particles. Returns remarks.
+    /// and a factor of the number of particles. It stands still at first if it is `paused`. Returns remarks.
     ///
     /// # Errors
     /// What is wrong with it, with its place. The present scene goes on.
@@ -89,22 +103,16 @@ impl Viewer {
         files: Vec<String>,
         overrides: Vec<String>,
         scale: Option<f64>,
+        paused: bool,
     ) -> Result<Vec<String>, JsError> {
         let files = files.as_chunks().0.iter();
         let files = files.map(|[name, text]| (name.clone(), text.clone().into_bytes())).collect();
         let source =
             Source::Memory { name: PathBuf::from(name).with_extension("toml").display().to_string(), text, files };
-        let wanted = Wanted { source, overrides, scale };
+        let wanted = Wanted { source, overrides, scale, paused };
         let loaded = self.0.viewer.lock().await.load(&wanted).await;
         self.0.wake();
         loaded.map_err(|why| JsError::new(&why))
-    }
-    /// Stands still, or goes on.
-    pub async fn pause(&self, paused: bool) {
-        if let Some(view) = self.0.viewer.lock().await.view() {
-            view.pause(paused);
-        }
-        self.0.wake();
     }
     /// Runs so many steps, stands still then, and measures: the time, kinetic and potential energy.
     ///
@@ -119,13 +127,13 @@ impl Viewer {
     pub async fn status(&self) -> Result<Status, JsError> {
         let mut viewer = self.0.viewer.lock().await;
         let (scene, steps, message) = viewer.status();
-        let (asked, taken) = (viewer.asked(), viewer.taken());
+        let (asked, taken, paused) = (viewer.asked(), viewer.taken(), viewer.rests());
         let (picture, png) = match taken {
             Some(taken) => (Some(taken.name), taken.png),
             None => (None, Vec::new()),
         };
         #[expect(clippy::cast_precision_loss, reason = "steps are fewer than 2^32")]
         let steps = steps as f64;
-        Ok(Status { scene, steps, message, failed: self.0.failed(), asked, picture, png })
+        Ok(Status { scene, steps, paused, message, failed: self.0.failed(), asked, picture, png })
     }
 }

@@ -21,6 +21,8 @@ pub struct Wanted {
     pub overrides: Vec<String>,
     /// A factor of the number of particles.
     pub scale: Option<f64>,
+    /// Whether it stands still at first.
+    pub paused: bool,
 }
 
 /// A canvas, and what runs on it.
@@ -87,7 +89,8 @@ impl Viewer {
         let remarks = std::mem::take(&mut scene.remarks);
         let (device, queue) = (self.found.device.clone(), self.found.queue.clone());
         let make: Make<Gpu> = Box::new(move |setup| Simulation::new(&device, &queue, setup));
-        let view = View::new(&scene, setup, make).await.map_err(words)?;
+        let mut view = View::new(&scene, setup, make).await.map_err(words)?;
+        view.pause(wanted.paused);
         self.found.faults.check().map_err(words)?;
         self.name.clone_from(&scene.name);
         let film = self.view.replace(view).map(|mut view| view.end()).transpose().map_err(words)?.flatten();

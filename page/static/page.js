@@ -1,5 +1,5 @@
 // The page about the canvas: scenes, the editor, links. What runs on the canvas is `motes.js`.
-import init, { Viewer, builtIn, withFile } from "./motes.js";
+import init, { Viewer, builtIn, kindOf, withFile } from "./motes.js";
 
 const at = (id) => document.getElementById(id);
 /** The built-in scenes by their names: their texts, and the files that they name. */
@@ -103,8 +103,7 @@ const run = (next, paused = false) => {
     // The words above are shown before the work begins.
     await new Promise((done) => setTimeout(done, 30));
     try {
-      const remarks = await viewer.load(next.name, next.text, [...next.files].flat(), next.overrides, next.scale);
-      await viewer.pause(paused);
+      const remarks = await viewer.load(next.name, next.text, [...next.files].flat(), next.overrides, next.scale, paused);
       say(remarks.join("\n"), true);
       if (at("editor").hidden) at("canvas").focus({ preventScroll: true });
       document.title = `motes: ${next.name}`;
@@ -114,6 +113,12 @@ const run = (next, paused = false) => {
     }
   });
   return loads;
+};
+/** Runs a scene that has a place of its own among those that were open: the way back leads to what ran before. */
+const begin = async (next, paused = false) => {
+  const url = await address(next);
+  if (url && url !== location.href) history.pushState(null, "", url);
+  await run(next, paused);
 };
 const refuse = (text) => {
   say(text);
@@ -147,10 +152,7 @@ at("text").onkeydown = (event) => {
 };
 at("editor").onsubmit = async (event) => {
   event.preventDefault();
-  // The way back leads to what ran before.
-  const url = await address();
-  if (url && url !== location.href) history.pushState(null, "", url);
-  await run(open);
+  await begin(open);
 };
 at("edit").onclick = () => toggle(at("editor").hidden);
 at("law").onclick = () => {
@@ -166,21 +168,21 @@ const download = (name, parts, type) => {
 };
 at("save").onclick = () => download(tab || `${open.name}.toml`, [at("text").value], "text/plain");
 
-/** The link to what is open, if it is not too long for one. */
-const address = async () => {
+/** The link to a scene, if it is not too long for one. */
+const address = async ({ name, text, files, overrides, scale, own }) => {
   const link = new URLSearchParams();
-  link.set("scene", open.name);
-  if (open.own) {
-    const words = await packed(JSON.stringify({ text: open.text, files: Object.fromEntries(open.files) }));
+  link.set("scene", name);
+  if (own) {
+    const words = await packed(JSON.stringify({ text, files: Object.fromEntries(files) }));
     if (words.length > 8000) return undefined;
     link.set("text", words);
   }
-  if (open.scale !== undefined) link.set("scale", String(open.scale));
-  for (const value of open.overrides) link.set(...value.split(/=(.*)/s, 2));
+  if (scale !== undefined) link.set("scale", String(scale));
+  for (const value of overrides) link.set(...value.split(/=(.*)/s, 2));
   return `${location.href.split("#")[0]}#${link}`;
 };
 at("link").onclick = async () => {
-  const url = await address();
+  const url = await address(open);
   if (!url) return shown("this scene is too long for a link: save it as a file", true);
   if ([...held].some((name) => open.text.includes(name))) return shown("a link does not carry files of particles: save the scene, and keep them beside it", true);
   history.replaceState(null, "", url);
@@ -213,42 +215,59 @@ const hang = () => {
 
 /** Files of bytes that were dropped: their names. They are in no link. */
 const held = new Set();
-/** Files that are dropped: a scene is run; particles take the place of those of the present scene, a law is one more force; others stand beside it. */
+/** The longest text that is shown for editing, and goes into links and the draft. */
+const LONGEST = 100_000;
+/** A file as text, if it is one. */
+const words = (bytes) => {
+  try {
+    return new TextDecoder("utf-8", { fatal: true }).decode(bytes);
+  } catch {
+    return undefined;
+  }
+};
+/** A scene with a file beside it: particles and a floor plan take the place of its own, and a law is one more force, unless the scene names the file. */
+const beside = async (next, file) => {
+  const bytes = new Uint8Array(await file.arrayBuffer());
+  const [kind, text] = [kindOf(file.name), words(bytes)];
+  const named = ['"', "'"].some((mark) => next.text.includes(mark + file.name + mark));
+  const whole = named ? next.text : withFile(next.text, file.name, text ?? "");
+  const files = new Map(next.files);
+  files.delete(file.name);
+  if (text !== undefined && kind !== "particles" && text.length < LONGEST) {
+    files.set(file.name, text);
+  } else {
+    await viewer?.hold(file.name, bytes);
+    held.add(file.name);
+  }
+  // Sizes and values of the particles from before are none of others.
+  const others = kind === "particles" && !named ? { scale: undefined, overrides: next.overrides.filter((value) => !value.startsWith("particles.")) } : {};
+  return { ...next, ...others, text: whole, files };
+};
+/** Files that are dropped. What cannot be used is said, and the rest is run. */
 document.addEventListener("dragover", (event) => event.preventDefault());
 document.addEventListener("drop", async (event) => {
   event.preventDefault();
-  const files = [...(event.dataTransfer?.files ?? [])];
-  if (!files.length) return;
-  let next = { ...open, files: new Map(open.files), own: true };
-  for (const file of files) {
-    if (file.name.endsWith(".toml")) {
-      next = { ...next, name: file.name.replace(/\.toml$/, ""), text: await file.text(), overrides: [], scale: undefined };
-    }
+  const all = [...(event.dataTransfer?.files ?? [])];
+  const [scenes, others] = [true, false].map((wanted) => all.filter((file) => /\.toml$/i.test(file.name) === wanted));
+  const paused = (await viewer?.status())?.paused ?? false;
+  let next = open;
+  for (const file of scenes) {
+    next = { ...next, name: file.name.replace(/\.toml$/i, ""), text: await file.text(), overrides: [], scale: undefined, own: true };
   }
-  let why = "";
-  for (const file of files.filter((file) => !file.name.endsWith(".toml"))) {
-    const isLaw = /\.wgsl$/i.test(file.name);
-    let text;
+  const faults = [];
+  for (const file of others) {
     try {
-      text = withFile(next.text, file.name, isLaw ? await file.text() : "");
-    } catch (other) {
-      why = other.message;
+      next = { ...await beside(next, file), own: true };
+    } catch (why) {
+      faults.push(why.message);
     }
-    if (text === undefined || isLaw) {
-      next.files.set(file.name, await file.text());
-    } else if (viewer) {
-      // Sizes and values of the particles from before are none of these.
-      next.scale = undefined;
-      next.overrides = next.overrides.filter((value) => !value.startsWith("particles."));
-      await viewer.hold(file.name, new Uint8Array(await file.arrayBuffer()));
-      held.add(file.name);
-    }
-    next.text = text ?? next.text;
   }
   toggle(true);
-  await run(next);
-  keep();
-  if (why && at("faults").hidden) say(why, true);
+  if (next !== open) {
+    await begin(next, paused && !scenes.length);
+    keep();
+  }
+  if (faults.length && (at("faults").hidden || at("faults").classList.contains("remarks"))) say(faults.join("\n"), true);
 });
 
 /** The keys of the browser stay its own: reload, find, address, full screen. */
@@ -298,7 +317,7 @@ const watch = async () => {
   setTimeout(watch, 250);
 };
 
-const begin = async () => {
+const start = async () => {
   await init({ module_or_path: new URL("motes_bg.wasm", import.meta.url) });
   scenes = new Map(builtIn().map((scene) => [scene.name, { text: scene.text, files: pairs(scene.files) }]));
   hang();
@@ -317,4 +336,4 @@ const begin = async () => {
   window.addEventListener("hashchange", follow);
   await follow();
 };
-begin().catch((why) => shown(`the page cannot start: ${why.message}`, true));
+start().catch((why) => shown(`the page cannot start: ${why.message}`, true));

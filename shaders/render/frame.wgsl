@@ -15,6 +15,7 @@ struct Frame {
     largest: f32,  // radius at which a ball is drawn at most [pixels]
     solid: f32,    // radius from which on a particle is a ball, and below it a light [pixels]
     glow: f32,     // radius of a light [pixels]
+    magnified: f32, // how much larger balls are drawn than they are
     unit: f32,     // the centre of a white light, on the canvas
     slow: f32,     // speeds at the ends of the colours
     fast: f32,

@@ -1,4 +1,5 @@
-// The projected position, depth and radius of each particle:  r = max(R s, drop s, marker (m / heaviest)^⅛), as a ball if that is enough pixels.
+// The projected position, depth and radius of each particle:  r = max(R k s, drop k s, marker (m / heaviest)^⅛), k times as large as it is; as a ball if
+// that is enough pixels.
 @group(0) @binding(0) var<uniform> world: World;
 @group(1) @binding(0) var<storage, read> position: array<vec4f>;             // xyz, mass
 @group(1) @binding(1) var<storage, read> velocity: array<vec4f>;             // xyz, radius
@@ -27,7 +28,7 @@ fn project(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups:
             atomicAdd(&not_drawn[1], 1u);
         } else {
             let seen = see(x.xyz);
-            let size = max(max(v.w, frame.drop) * seen.scale, marker(x.w));
+            let size = max(max(v.w, frame.drop) * frame.magnified * seen.scale, marker(x.w));
             let ball = size >= frame.solid;
             let radius = select(0.0, min(size, frame.largest), ball);
             let reach = select(frame.glow, radius + 0.5, ball);

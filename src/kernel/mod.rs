@@ -44,6 +44,8 @@ pub use host::{Host, Reading, Writing};
 pub use list_shape::ListShape;
 pub use op::{Flag, Next, Op, Walk};
 pub use own::claims;
+#[cfg(feature = "panel")]
+pub use own::over;
 pub use pack::{Member, Packed, Scalar};
 pub use packing::insert;
 pub use pair::{Pair, Way};

@@ -41,6 +41,8 @@ pub struct Frame {
     pub solid: f64,
     /// The radius of a light \[pixels\].
     pub glow: f64,
+    /// How much larger balls are drawn than they are.
+    pub magnified: f64,
     /// What the middle of a white light adds to the canvas.
     pub unit: f64,
     /// The speeds at the ends of the colours \[length / time\].
@@ -159,6 +161,7 @@ impl Frame {
             ("largest", float(self.largest)),
             ("solid", float(self.solid)),
             ("glow", float(self.glow)),
+            ("magnified", float(self.magnified)),
             ("unit", float(self.unit)),
             ("slow", float(self.speeds.0)),
             ("fast", float(self.speeds.1)),

@@ -48,6 +48,12 @@ pub const KEYS: &[Key] = &[
         "how particles are drawn: as balls where they are few or large, as points of light, as balls, as the surface of a fluid, or as surface density",
     ),
     Key::new(
+        "size",
+        Kind::Positive,
+        Value::Number(1.0),
+        "how large balls and lights are drawn, as a multiple of what they are: lights up to a radius of 100 pixels, balls of many up to 80",
+    ),
+    Key::new(
         "drop",
         Kind::NotNegative,
         Value::Number(0.0),

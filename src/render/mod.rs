@@ -44,6 +44,8 @@ pub use keys::KEYS;
 pub use live::Live;
 pub use palette::{Color, Scaled, bytes, group_color, pack, value_color};
 pub use passes::absent;
+#[cfg(feature = "panel")]
+pub(crate) use picture::AREA;
 pub use picture::Picture;
 pub use scenery::Scenery;
 pub use solid::{Shape, Solid};

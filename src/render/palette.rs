@@ -55,6 +55,37 @@ pub struct Scaled {
     pub logarithmic: bool,
 }
 
+#[cfg(feature = "panel")]
+impl Color {
+    /// Whether another one shows the same quantity, perhaps on another scale, or on none yet.
+    pub(crate) fn shows_as(&self, other: &Self) -> bool {
+        match (self, other) {
+            (Self::Speed { .. }, Self::Speed { .. }) => true,
+            (Self::Value(scaled), Self::Column(name)) => scaled.column.name == *name,
+            _ => false,
+        }
+    }
+    /// The same quantity of another state, on a scale of its own, or on none yet; nothing where no scale is.
+    pub(crate) fn anew(&self, state: &State) -> Option<Self> {
+        match self {
+            Self::Speed { .. } => Some(Self::by_speed(state)),
+            Self::Value(scaled) => Some(Self::Column(scaled.column.name.to_string())),
+            Self::Given(_) | Self::Column(_) | Self::Heading => None,
+        }
+    }
+    /// Whether values with a scale of their own are shown well on this one: they neither reach far beyond it nor fill less than half of it.
+    pub(crate) fn fits(&self, own: &Self) -> bool {
+        if let (Self::Value(known), Self::Value(own)) = (self, own)
+            && known.logarithmic != own.logarithmic
+        {
+            return false;
+        }
+        let ((low, high), (least, most)) = (self.ends(), own.ends());
+        let (width, filled) = (high - low, most - least);
+        (low - least).max(most - high) <= 0.5 * width && filled >= 0.5 * width
+    }
+}
+
 /// Values this far apart, as a factor, are on a logarithmic scale.
 const DECADES: f64 = 100.0;
 
@@ -105,6 +136,9 @@ fn ends(values: impl IntoIterator<Item = f64>) -> (f64, f64) {
     }
     values.sort_unstable_by(f64::total_cmp);
     let (low, high) = (values[values.len() / 50], values[(values.len() - 1) - values.len() / 50]);
+    if low == 0.0 && high == 0.0 {
+        return (0.0, 1.0);
+    }
     // All the same: the middle of the scale.
     let least = 1e-3 * low.abs().max(high.abs()).max(1e-30);
     if high - low > least { (low, high) } else { (low - least, high + least) }
@@ -187,5 +221,42 @@ impl Color {
     fn by_speed(particles: &State) -> Self {
         let (slow, fast) = ends(particles.velocity().iter().map(|v| v.length()));
         Self::Speed { slow, fast }
+    }
+}
+
+#[cfg(all(test, feature = "panel"))]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_scale_is_kept_until_it_is_outgrown_or_mostly_empty() {
+        let speed = |slow, fast| Color::Speed { slow, fast };
+        let known = speed(1.0, 3.0);
+        for (own, fits) in [
+            (speed(1.0, 3.0), true),
+            (speed(0.1, 3.9), true),
+            (speed(1.5, 2.6), true),
+            (speed(1.5, 2.4), false),
+            (speed(1.0, 4.1), false),
+            (speed(-0.1, 3.0), false),
+            (speed(8.0, 10.0), false),
+        ] {
+            assert_eq!(known.fits(&own), fits, "{own:?}");
+        }
+        let column = |low, high, logarithmic| {
+            let column = Column::new("velocity", crate::kernel::Kind::Vector, "", "");
+            Color::Value(Box::new(Scaled { column, low, high, logarithmic }))
+        };
+        assert!(column(1.0, 1e4, true).fits(&column(0.1, 1e4, true)));
+        assert!(!column(1.0, 1e4, true).fits(&column(1e-3, 1e4, true)));
+        assert!(!column(1.0, 1e4, true).fits(&column(1.0, 1e4, false)));
+        assert!(column(1.0, 3.0, false).shows_as(&Color::Column("velocity".to_owned())));
+        assert!(!column(1.0, 3.0, false).shows_as(&Color::Column("position".to_owned())));
+    }
+    #[test]
+    fn what_rests_is_at_the_dark_end() {
+        let mut rest = State::default();
+        (0..3).for_each(|_| rest.push(DVec3::ZERO, DVec3::ZERO, 1.0, 0.0));
+        assert_eq!(Color::by_speed(&rest), Color::Speed { slow: 0.0, fast: 1.0 });
     }
 }

@@ -40,9 +40,11 @@ pub struct Picture {
 /// Pixels from side to side, at most: one invocation draws a whole line.
 const SIDE: f64 = 8192.0;
 /// Pixels in all, at most: three numbers for each fit the 128 MiB that every device binds.
-const AREA: f64 = 11_184_810.0;
+pub const AREA: u32 = 11_184_810;
 /// A ball of many is this large at most \[pixels\].
 const LARGEST_OF_MANY: f64 = 80.0;
+/// The radius of a light at most \[pixels\]: one invocation draws all of it.
+const LARGEST_LIGHT: f64 = 100.0;
 /// Brightness of ink, for that of light: before a sky all but black, on paper in colours that stand out from white.
 const TINT: f64 = 0.13;
 const TINT_ON_PAPER: f64 = 0.6;
@@ -72,7 +74,7 @@ impl Picture {
         scenery: &Scenery,
     ) -> Result<Self, Error> {
         let (width, height) = (settings.number("width"), settings.number("height"));
-        if !(1.0..=SIDE).contains(&width) || !(1.0..=SIDE).contains(&height) || width * height > AREA {
+        if !(1.0..=SIDE).contains(&width) || !(1.0..=SIDE).contains(&height) || width * height > f64::from(AREA) {
             return Err(Error::Scene(format!(
                 "a picture of {width} × {height} pixels is too large: each side may have {SIDE}, and all of it {AREA}"
             )));
@@ -102,6 +104,8 @@ impl Picture {
         let water_only = color == Color::Given(vec![pack(fluid::DYE); particles.len()]);
         let water = Water::of(settings, particles, scenery, &camera, !water_only);
         let water = Water { edges: if wet { facets.edges() } else { 0 }, ..water };
+        // Drops of a fluid have a key of their own.
+        let size = if wet { 1.0 } else { settings.number("size") };
         let apart = (width * height / f64::from(count)).sqrt();
         let has_tails = settings.number("tail") > 0.0;
         let subject = Subject { particles, few, short, apart, has_tails, scale: 0.5 * height / camera.extent };
@@ -114,11 +118,12 @@ impl Picture {
             height: super::frame::whole(height),
             heaviest: masses().fold(0.0, f64::max),
             mean: masses().sum::<f64>() / f64::from(count),
-            marker: style.marker(&subject),
+            marker: size * style.marker(&subject),
             water,
             largest: if few { short / 4.0 } else { LARGEST_OF_MANY.min(short / 4.0) }.max(2.0),
             solid: style.solid(&subject),
-            glow: style.glow(&subject),
+            glow: (size * style.glow(&subject)).min(LARGEST_LIGHT),
+            magnified: size,
             unit: unit(count),
             speeds: color.ends(),
             points: if style.has_trails() { points(&trail) } else { 0 },

@@ -9,7 +9,7 @@ use super::source::{Opened, shorten_path};
 use crate::formats::Input;
 
 /// The longest shader \[bytes\].
-const LONGEST_SHADER: u64 = 1 << 20;
+pub(super) const LONGEST_SHADER: u64 = 1 << 20;
 /// The longest mesh \[bytes\].
 const LONGEST_MESH: u64 = 1 << 30;
 

@@ -12,6 +12,7 @@
 //!
 //! The sections and their keys are data (`sections.rs`), checked by one walker (`walk.rs`); nothing in a scene is ever run.
 
+#[cfg(feature = "panel")]
 mod beside;
 mod bounds;
 mod builtin;
@@ -57,8 +58,9 @@ use crate::settings::Settings;
 use crate::simulation::Setup;
 use crate::state::State;
 
+#[cfg(feature = "panel")]
 #[doc(hidden)]
-pub use beside::{is_law, with_file};
+pub use beside::{Beside, with_file};
 #[doc(hidden)]
 pub use builtin::{Builtin, SCENES};
 #[doc(hidden)]

@@ -9,7 +9,7 @@ use super::{Plans, Setup, Simulation, alarm, inactive, restart};
 use crate::component::Setting;
 use crate::error::Error;
 use crate::forces::{Change, Component, Law, numbered};
-use crate::kernel::{Backend, Plan, Problem};
+use crate::kernel::{Backend, Column, Plan, Problem};
 use crate::motion::{self, Motion};
 use crate::settings::nearest;
 use crate::visit::{self, LINK};
@@ -109,6 +109,14 @@ impl<B: Backend> Simulation<B> {
         }
         if setup.breaks() != self.setup.breaks() {
             return refuse("changes whether bonds break");
+        }
+        let columns = |setup: &Setup| -> Vec<Column> {
+            // The value that new particles begin with is a number.
+            let all = setup.forces.iter().flat_map(|force| force.columns());
+            all.map(|column| Column { initial: None, ..column }).collect()
+        };
+        if columns(&setup) != columns(&self.setup) {
+            return refuse("changes which quantities particles have");
         }
         let plans = setup.plans_of(&problem)?;
         if !kernels(&plans).is_subset(&kernels(&self.plans)) {

@@ -97,7 +97,7 @@ typed! {
     Tweezers "tweezers" tweezers() {
         /// A point on the axis of the beam \[length\].
         position: DVec3,
-        /// The direction of the beam.
+        /// The direction of the beam; in a periodic box the trap repeats across the sides that the beam is parallel to, and a slanted beam ends at those that it crosses.
         axis: DVec3,
         /// The distance w from the axis at which the trap is e² times shallower \[length\].
         waist: f64,

@@ -185,6 +185,11 @@ fn looks<B: Backend>(view: &mut View<B>, ui: &mut Ui) {
             list.response.labelled_by(label.id);
         });
     }
+    let mut size = view.stage.number("size");
+    let slider = Slider::new(&mut size, 0.1..=20.0).logarithmic(true).max_decimals(2).text("size");
+    if ui.add(slider).on_hover_text("how large particles are drawn, as a multiple of what they are").changed() {
+        view.actions.push(Action::Picture { key: "size", value: size.into() });
+    }
     let mut tail = view.stage.number("tail");
     let slider = Slider::new(&mut tail, 0.0..=200.0 * view.stage.dt()).max_decimals(6).text("tail");
     if ui.add(slider).on_hover_text("a streak from where each particle was so long ago").changed() {
@@ -223,12 +228,21 @@ fn forces<B: Backend>(view: &mut View<B>, ui: &mut Ui) {
     }
 }
 
+/// The columns and rows of a picture for a place of so many pixels, or of as many of this shape as a picture can have.
 #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a number of pixels, which is bounded")]
+fn size(pixels: Vec2) -> [u32; 2] {
+    let fits = |part: f32| {
+        let whole = |x: f32| ((part * x).round().max(64.0) as u32).min(SIDE);
+        [whole(pixels.x).next_multiple_of(COLUMNS), whole(pixels.y)]
+    };
+    let parts = (0..).map(|n| 0.97_f32.powi(n));
+    parts.map(fits).find(|[width, height]| width * height <= render::AREA).unwrap_or([COLUMNS; 2])
+}
+
 fn picture<B: Backend>(view: &mut View<B>, ui: &mut Ui) {
     let (place, response) = ui.allocate_exact_size(ui.available_size(), Sense::click_and_drag());
     let pixels = place.size() * ui.ctx().pixels_per_point();
-    let whole = |x: f32| (x.round().max(64.0) as u32).min(SIDE);
-    view.size = [whole(pixels.x).next_multiple_of(COLUMNS), whole(pixels.y)];
+    view.size = size(pixels);
     if let Some(id) = view.texture {
         // Columns beyond the place are cut off, as many at both sides.
         let [width, height] = view.size();
@@ -279,6 +293,11 @@ fn drag<B: Backend>(view: &mut View<B>, ui: &Ui, response: &Response, place: Rec
     let [across, up] = spot(by, place);
     let shift = ui.input(|input| input.modifiers.shift);
     let primary = response.dragged_by(PointerButton::Primary) && !shift;
+    if !primary && response.dragged() && view.hand.tool != Tool::Look {
+        // With Shift, or another button, the camera moves, and what was begun ends.
+        view.hand.begun = None;
+        view.actions.push(Action::Release);
+    }
     let at = response.interact_pointer_pos().map(|pointer| spot(pointer - place.center(), place));
     if let (Some([across, up]), true) = (at, primary && view.hand.tool != Tool::Look) {
         if view.hand.tool == Tool::Ball {
@@ -337,4 +356,26 @@ fn mark<B: Backend>(view: &View<B>, ui: &Ui, place: Rect) {
     // Light on dark, and dark on light.
     painter.circle_stroke(at, RING + 1.5, Stroke::new(1.5, Color32::from_black_alpha(180)));
     painter.circle_stroke(at, RING, Stroke::new(1.5, Color32::from_rgb(255, 214, 90)));
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_window_of_any_size_has_a_picture() {
+        for (width, height) in [(4096.0, 4096.0), (7680.0, 4320.0), (0.0, 0.0), (1e9, 3.0), (50.0, 9000.0)] {
+            let [columns, rows] = size(Vec2::new(width, height));
+            assert!(
+                columns * rows <= render::AREA && columns % COLUMNS == 0 && rows >= 64,
+                "{width} × {height}: {columns} × {rows}"
+            );
+            assert!(columns <= SIDE && rows <= SIDE, "{width} × {height}: {columns} × {rows}");
+        }
+        for whole in [[3840, 2160], [640, 384]] {
+            assert_eq!(size(Vec2::from(whole.map(|side| side as f32))), whole);
+        }
+        let [columns, rows] = size(Vec2::splat(4096.0)).map(f64::from);
+        assert!((columns / rows - 1.0).abs() < 0.03, "{columns} × {rows}");
+    }
 }

@@ -38,6 +38,9 @@ pub type Make<B> = Box<dyn Fn(&Setup) -> Result<Simulation<B>, Error>>;
 /// The field with the pixels of the picture.
 pub const PICTURE: Field<u32> = PIXELS;
 
+/// What a pull of a run that stands still says.
+const STILL: &str = "nothing is pulled while the run stands still: Space goes on";
+
 /// A picture or a film that was taken, and the name of its file.
 pub struct Taken {
     /// A PNG, which is animated if it is a film.
@@ -130,6 +133,9 @@ impl<B: Backend> View<B> {
     /// Pauses the run, or goes on.
     pub fn pause(&mut self, paused: bool) {
         self.paused = paused || self.faulty;
+        if !self.paused && self.message == STILL {
+            self.message.clear();
+        }
     }
     /// The mean times of a step and of a picture \[seconds\], once there was one.
     #[must_use]
@@ -185,12 +191,18 @@ impl<B: Backend> View<B> {
                 self.refuse(error)?;
             }
         }
-        self.find().await?;
+        if let Err(error) = self.find().await {
+            self.refuse(error)?;
+        }
         let begun = Instant::now();
         let size = self.recording.as_ref().map_or(self.size, |recording| recording.size);
-        self.stage.draw(size, self.paused || self.recording.is_some()).await?;
-        self.pace.drawn(begun.elapsed());
-        self.record().await?;
+        match self.stage.draw(size, self.paused || self.recording.is_some()).await {
+            Ok(()) => self.pace.drawn(begun.elapsed()),
+            Err(error) => self.refuse(error)?,
+        }
+        if let Err(error) = self.record().await {
+            self.refuse(error)?;
+        }
         self.shown = true;
         Ok(())
     }
@@ -246,7 +258,14 @@ impl<B: Backend> View<B> {
     async fn pull(&mut self, across: f64, up: f64) -> Result<(), Error> {
         let Some(sign) = self.hand.tool.sign() else { return Ok(()) };
         if self.paused {
-            self.say("nothing is pulled while the run stands still: Space goes on");
+            // Why it was stopped stays said.
+            if !self.faulty {
+                self.say(STILL);
+            }
+            return Ok(());
+        }
+        if self.message == STILL {
+            self.message.clear();
         }
         self.stage.pull(across, up, self.hand.reach, sign * self.hand.strength).await
     }
@@ -269,6 +288,10 @@ impl<B: Backend> View<B> {
         if self.energies.is_due() {
             let snapshot = self.stage.simulation.snapshot().await?;
             self.energies.take(&snapshot)?;
+            // A film has one scale.
+            if self.recording.is_none() {
+                self.stage.follow(&snapshot).await?;
+            }
         }
         Ok(())
     }
@@ -314,9 +337,16 @@ impl<B: Backend> View<B> {
                 self.stage.camera(|camera| orbit::flown(camera, right, up, forward));
             }
             Action::Turn { across, up } => self.stage.camera(|camera| orbit::looked(camera, across, up)),
-            Action::Use(tool) => self.hand.tool = tool,
+            Action::Use(tool) => {
+                // What was begun with another one ends.
+                self.hand.begun = None;
+                self.hand.tool = tool;
+                self.stage.release()?;
+            }
             Action::Pull { across, up } => self.pull(across, up).await?,
             Action::Release => self.stage.release()?,
+            // Escape ends a drag as well.
+            Action::Place { .. } if self.hand.tool != Tool::Ball => (),
             Action::Place { across, up, radius } => {
                 self.stage.place(across, up, radius).await?;
                 self.hand.tool = Tool::Look;

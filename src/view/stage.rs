@@ -6,8 +6,8 @@ use super::Make;
 use super::added::Added;
 use crate::component::Component;
 use crate::error::Error;
-use crate::kernel::{Array, Backend, POSITION, Shape};
-use crate::render::{Camera, Image, Live, PROJECTED, Picture, Trail};
+use crate::kernel::{Array, Backend, Column, Kind, POSITION, Shape};
+use crate::render::{Camera, Color, Image, Live, PROJECTED, Picture, Trail};
 use crate::run::Pictures;
 use crate::scene::Scene;
 use crate::settings::Value;
@@ -16,6 +16,15 @@ use crate::state::State;
 
 /// How far from a small particle one may point at it, as a part of the height of the picture.
 const NEAR: f64 = 0.012;
+
+/// The scale of colours that show values.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Scale {
+    /// That of the values which are shown now.
+    Own,
+    /// That of the picture before, if it shows the same.
+    Kept,
+}
 
 /// A simulation with its picture.
 pub struct Stage<B: Backend> {
@@ -32,6 +41,8 @@ pub struct Stage<B: Backend> {
     framed: State,
     /// Whether the camera was moved by hand.
     moved: bool,
+    /// Whether the forces have changed since the last picture.
+    stale: bool,
     time: f64,
     /// Samples of a pixel each way where edges are smooth.
     fine: u32,
@@ -59,6 +70,7 @@ impl<B: Backend> Stage<B> {
             live,
             framed,
             moved: false,
+            stale: false,
             time,
             fine,
             added: Added::default(),
@@ -79,7 +91,9 @@ impl<B: Backend> Stage<B> {
     }
     /// The columns that colours can show, and what they are.
     pub fn shown_columns(&self) -> Vec<(String, String)> {
-        let columns = self.simulation.columns().iter().filter(|column| column.shape == Shape::Particle);
+        // Of a rotation no number shows anything.
+        let shown = |column: &&Column| column.shape == Shape::Particle && column.kind != Kind::Quaternion;
+        let columns = self.simulation.columns().iter().filter(shown);
         columns.map(|column| (column.name.to_string(), column.with_unit(&column.about))).collect()
     }
     pub fn number(&self, key: &str) -> f64 {
@@ -106,10 +120,10 @@ impl<B: Backend> Stage<B> {
         let frame = &self.live.picture.frame;
         if [frame.width, frame.height] != [width, height] {
             self.pictures.size(width, height);
-            self.compose()?;
+            self.compose(Scale::Kept)?;
         }
-        if self.live.picture.frame.count != self.simulation.capacity() {
-            self.compose_anew().await?;
+        if std::mem::take(&mut self.stale) || self.live.picture.frame.count != self.simulation.capacity() {
+            self.compose_anew(Scale::Own).await?;
         }
         self.live.picture.frame.fine = if smooth { self.fine } else { 1 };
         let bounds = self.simulation.bounds().await?;
@@ -121,21 +135,25 @@ impl<B: Backend> Stage<B> {
         self.simulation.show(&mut self.live).await
     }
     /// A picture of the known state; a camera that was moved by hand stays.
-    fn compose(&mut self) -> Result<(), Error> {
+    fn compose(&mut self, scale: Scale) -> Result<(), Error> {
         let camera = self.live.picture.frame.camera;
         let trail = self.pictures.trail().clone();
         let mut picture = self.pictures.of(&self.framed, trail)?;
         if self.moved {
             picture.frame.camera = camera;
         }
+        let known = &self.live.picture.color;
+        if scale == Scale::Kept && known.shows_as(&picture.color) {
+            picture.paint(known.clone());
+        }
         self.fine = picture.frame.fine;
         self.live.change(picture);
         Ok(())
     }
-    /// The same of the present state.
-    async fn compose_anew(&mut self) -> Result<(), Error> {
+    /// A picture of the present state.
+    async fn compose_anew(&mut self, scale: Scale) -> Result<(), Error> {
         self.framed = self.simulation.snapshot().await?;
-        self.compose()
+        self.compose(scale)
     }
     /// Where in the columns the values of the particle lie that the last picture shows at a place \[halves of its height, to the right and up from
     /// its middle\]: of those whose ball covers it the foremost, otherwise the nearest of the small ones that are a few pixels away.
@@ -159,12 +177,27 @@ impl<B: Backend> Stage<B> {
     /// Changes a key of the picture.
     pub async fn look(&mut self, key: &'static str, value: Value) -> Result<(), Error> {
         let old = self.pictures.set(key, value);
-        let composed = self.compose_anew().await;
+        let composed = self.compose_anew(Scale::Kept).await;
         if let (Err(_), Some(old)) = (&composed, old) {
             self.pictures.set(key, old);
-            self.compose()?;
+            self.compose(Scale::Kept)?;
         }
         composed
+    }
+    /// Takes another scale of colours where values of the run have outgrown the present one, or fill less than half of it.
+    pub async fn follow(&mut self, state: &State) -> Result<(), Error> {
+        let known = &self.live.picture.color;
+        let Some(mut own) = known.anew(state) else { return Ok(()) };
+        if matches!(own, Color::Column(_)) {
+            let mut picture = self.live.picture.clone();
+            picture.paint(own);
+            self.simulation.scale(&mut picture).await?;
+            own = picture.color;
+        }
+        if !known.fits(&own) {
+            self.live.picture.paint(own);
+        }
+        Ok(())
     }
     /// Moves the camera.
     pub fn camera(&mut self, moved: impl FnOnce(Camera) -> Camera) {
@@ -179,7 +212,7 @@ impl<B: Backend> Stage<B> {
         let camera = self.live.picture.frame.camera;
         self.pictures.aim(&camera);
         self.moved = false;
-        self.compose_anew().await
+        self.compose_anew(Scale::Own).await
     }
     /// Changes a setting of a force. Where kernels depend on it, they are compiled anew for the present state, and this is said.
     pub async fn set(&mut self, force: &str, setting: &str, value: Value) -> Result<Option<String>, Error> {
@@ -198,25 +231,26 @@ impl<B: Backend> Stage<B> {
         let setup = Setup { state, forces, ..self.simulation.setup().clone() };
         let mut simulation = (self.make)(setup.in_its_box()?.as_ref())?;
         simulation.check().await?;
-        self.simulation = simulation;
+        (self.simulation, self.stale) = (simulation, true);
         Ok(())
     }
     /// Back to the start, with the present settings.
     pub async fn reset(&mut self) -> Result<(), Error> {
         let forces = self.simulation.setup().forces.clone();
-        self.begin(&Setup { forces, ..self.start.clone() }).await
+        self.begin((self.make)(&Setup { forces, ..self.start.clone() })?).await
     }
     /// Back to the start, with the settings of the scene.
     pub async fn restore(&mut self) -> Result<(), Error> {
+        let simulation = (self.make)(&self.start)?;
         self.added = Added::default();
-        self.begin(&self.start.clone()).await
+        self.begin(simulation).await
     }
-    async fn begin(&mut self, setup: &Setup) -> Result<(), Error> {
-        self.simulation = (self.make)(setup)?;
+    async fn begin(&mut self, simulation: Simulation<B>) -> Result<(), Error> {
+        self.simulation = simulation;
         self.surround();
-        *self.pictures.trail() = Trail::new(setup.state.len());
-        self.time = setup.state.time;
-        self.compose_anew().await
+        *self.pictures.trail() = Trail::new(self.start.state.len());
+        self.time = self.start.state.time;
+        self.compose_anew(Scale::Own).await
     }
     /// A picture of the present state, and a name for its file.
     pub async fn take(&mut self) -> Result<(Image, String), Error> {

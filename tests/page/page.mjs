@@ -164,11 +164,11 @@ const tests = {
   async "files that are dropped become parts of the scene"() {
     const page = await visit("scene=plummer&scale=0.01&paused=1");
     await runs(page, "plummer");
-    const drop = (name, text) => page.evaluate(({ name, text }) => {
+    const drop = (name, text) => page.evaluate((files) => {
       const dataTransfer = new DataTransfer();
-      dataTransfer.items.add(new File([text], name));
+      files.forEach(([name, text]) => dataTransfer.items.add(new File([text], name)));
       document.dispatchEvent(new DragEvent("drop", { dataTransfer, bubbles: true, cancelable: true }));
-    }, { name, text });
+    }, Array.isArray(name) ? name : [[name, text]]);
     // Two bodies in place of the sphere, with their own kinetic energy: 2 × ½ m v².
     await drop("two.csv", "x,y,z,vx,vy,vz,mass\n-1,0,0,0,0.5,0,3\n1,0,0,0,-0.5,0,3\n");
     await until(page, () => document.getElementById("text").value.includes("two.csv"));
@@ -181,12 +181,32 @@ const tests = {
     await drop("hold.wgsl", "fn force(me: Particle) -> vec4f { return vec4f(-me.position, 0.5 * dot(me.position, me.position)); }\n");
     await until(page, () => document.getElementById("text").value.includes("hold.wgsl"));
     await until(page, async (before) => Math.abs((await window.motes.advance(0))[2] - before - 3) < 1e-4, before);
-    // What is neither is said, and nothing changes.
-    await drop("letter.docx", "Dear all");
-    await until(page, () => document.getElementById("faults").textContent.includes("letter.docx"));
-    assert.match(await page.textContent("#faults"), /\.csv/);
+    assert.ok(await page.evaluate(async () => (await window.motes.status()).paused), "what stood still stands still");
+    // What cannot be used is said, and nothing changes.
+    const before_text = await page.inputValue("#text");
+    for (const [name, text, why] of [["letter.docx", "Dear all", /letter\.docx[\s\S]*\.csv/], ["house.svg", "<svg/>", /house\.svg[\s\S]*\[plan\]/]]) {
+      await drop(name, text);
+      await until(page, (name) => document.getElementById("faults").textContent.includes(name), name);
+      assert.match(await page.textContent("#faults"), why);
+      assert.equal(await page.inputValue("#text"), before_text);
+      assert.ok(!(await page.textContent("#tabs")).includes(name), `${name} is kept`);
+    }
     await page.click("#link");
     assert.match(await page.textContent("#status"), /does not carry/);
+    // A scene with its files is run as it is; the way back leads to what ran before.
+    await drop([["Four.TOML", "# Four stones.\n[simulation]\ndt = 0.01\nsteps = 10\n[[particles]]\nshape = \"sphere\"\ncount = 4\n[[force]]\nwgsl = \"hold.wgsl\"\nover = \"each\"\n"],
+      ["hold.wgsl", "fn force(me: Particle) -> vec4f { return vec4f(0.0); }\n"]]);
+    await until(page, () => document.getElementById("title").textContent === "Four: Four stones.");
+    assert.equal((await page.inputValue("#text")).match(/hold\.wgsl/g).length, 1);
+    assert.equal(await page.textContent("#faults"), "");
+    await page.goBack();
+    await until(page, () => document.getElementById("title").textContent.startsWith("plummer"));
+    // A floor plan takes the place of that of a room.
+    await page.evaluate(() => { location.hash = "#scene=room&paused=1"; });
+    await runs(page, "room");
+    await drop("square.wkt", "GEOMETRYCOLLECTION (POLYGON ((0 0, 15 0, 15 15, 0 15, 0 0)), LINESTRING (15 6, 15 9))");
+    await until(page, () => document.getElementById("text").value.includes("square.wkt"));
+    assert.match(await page.textContent("#tabs"), /square\.wkt/);
     await page.close();
   },
   async "the gallery has a picture of every scene, and opens them"() {

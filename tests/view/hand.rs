@@ -106,13 +106,26 @@ impl Hand {
     }
     /// Holds the left button down at a place, for so many frames after it has moved there; then lets go.
     pub fn hold(&mut self, from: Pos2, to: Pos2, frames: u32) {
+        self.hold_and(from, to, |hand| hand.frames(frames));
+    }
+    /// The same, and does something before it lets go.
+    pub fn hold_and(&mut self, from: Pos2, to: Pos2, mut meanwhile: impl FnMut(&mut Self)) {
         self.frame(vec![Event::PointerMoved(from)]);
         self.button(from, PointerButton::Primary, true);
         self.frame(vec![Event::PointerMoved(from.lerp(to, 0.5))]);
         self.frame(vec![Event::PointerMoved(to)]);
-        self.frames(frames);
+        meanwhile(self);
         self.button(to, PointerButton::Primary, false);
         self.frames(1);
+    }
+    /// Chooses a word of a list that has a label.
+    pub fn choose(&mut self, label: &str, word: &str) {
+        let place = self.place_beside(label);
+        self.click(place);
+        self.frames(20);
+        let place = self.place(word);
+        self.click(place);
+        self.frames(3);
     }
     /// Holds a key down for so many frames.
     pub fn hold_key(&mut self, key: Key, frames: u32) {

@@ -270,7 +270,7 @@ fn a_click_chooses_what_is_drawn_there_and_the_camera_goes_with_it() {
 
 #[test]
 fn colours_show_any_column() {
-    let mut hand = Hand::on("dam_break_2d", &["force.1.spacing=0.1"]);
+    let mut hand = Hand::on("dam_break_2d", &["force.1.spacing=0.1", "picture.style=balls"]);
     hand.until(30);
     hand.key(Key::Space, Modifiers::NONE);
     hand.frames(2);
@@ -288,6 +288,50 @@ fn colours_show_any_column() {
     assert_eq!(hand.message(), "");
     assert_eq!(hand.value_beside("color"), "position");
     assert!(hand.picture() != before, "the same colours");
+    // The scale stays while the same is shown, whatever else changes: another background and back.
+    hand.key(Key::Space, Modifiers::NONE);
+    hand.until(120);
+    hand.key(Key::Space, Modifiers::NONE);
+    hand.frames(40);
+    let before = hand.picture();
+    for background in ["black", "night"] {
+        hand.choose("background", background);
+    }
+    hand.frames(40);
+    let differ = before.iter().zip(hand.picture()).filter(|(a, b)| a.abs_diff(*b) > 4).count();
+    assert!(differ < before.len() / 1000, "{differ} of {} bytes are others", before.len());
+    // Columns that a force computes lie elsewhere when its kernels are compiled anew.
+    hand.choose("color", "density");
+    let place = hand.place("fluid");
+    hand.click(place);
+    hand.frames(30);
+    for choice in ["continuity", "summation"] {
+        let shown = hand.picture();
+        hand.choose("density_by", choice);
+        hand.frames(3);
+        assert!(hand.message().contains("compiled anew"), "{}", hand.message());
+        let (kept, pixels) = (hand.picture(), shown.len());
+        let differ = shown.iter().zip(&kept).filter(|(a, b)| a.abs_diff(**b) > 30).count();
+        assert!(differ < pixels / 50, "{choice}: {differ} of {pixels} bytes are others");
+    }
+}
+
+/// What is begun with a tool ends when another one is chosen, or when the drag goes on as one of the camera.
+#[test]
+fn escape_ends_what_was_begun() {
+    let mut hand = Hand::on("plummer", &["particles.0.count=200"]);
+    let (middle, edge) = (Pos2::new(250.0, 600.0), Pos2::new(310.0, 600.0));
+    (0..3).for_each(|_| hand.key(Key::G, Modifiers::NONE));
+    hand.hold_and(middle, edge, |hand| hand.key(Key::Escape, Modifiers::NONE));
+    assert_eq!(hand.forces(), ["gravity"], "a ball was placed");
+    hand.key(Key::G, Modifiers::NONE);
+    hand.hold_and(middle, edge, |hand| {
+        hand.frames(2);
+        assert_ne!(hand.setting("tweezers", "depth"), Value::Number(0.0));
+        hand.key(Key::Escape, Modifiers::NONE);
+        assert_eq!(hand.setting("tweezers", "depth"), Value::Number(0.0), "it goes on pulling");
+    });
+    assert_eq!(hand.forces(), ["gravity", "tweezers"]);
 }
 
 /// The median distance of particles from the line of sight through the middle of the picture: `spring_chain` and its kin lie in a plane, and a
@@ -333,6 +377,9 @@ fn a_drag_pulls_particles_or_pushes_them_and_lets_go() {
     hand.key(Key::G, Modifiers::NONE);
     hand.hold(Pos2::new(250.0, 600.0), Pos2::new(260.0, 600.0), 2);
     assert!(hand.message().contains("Space"), "a run that stands still: {}", hand.message());
+    assert_eq!(hand.forces(), ["gravity"], "nothing is compiled for it");
+    hand.key(Key::Space, Modifiers::NONE);
+    assert_eq!(hand.message(), "");
 }
 
 #[test]
@@ -365,7 +412,8 @@ fn a_ball_is_placed_where_it_is_drawn_and_keeps_particles_out() {
 #[test]
 fn scenes_of_each_kind_can_be_played_with() {
     let names = ["dam_break_2d", "cloth", "pile", "argon", "vicsek", "room"];
-    for scene in motes::scene::SCENES.iter().filter(|scene| names.contains(&scene.name)) {
+    for name in names {
+        let scene = motes::scene::SCENES.iter().find(|scene| scene.name == name).expect("a scene");
         let mut hand = Hand::on(scene.name, small::smaller(scene.name));
         hand.key(Key::G, Modifiers::NONE);
         hand.frames(1);

@@ -37,16 +37,16 @@ struct Origin {
     source: motes::scene::Source,
     /// Whether it is the scene of the arguments, with their values.
     own: bool,
-    /// Whether a file was put beside it by hand, which may be anywhere.
-    outside: bool,
-    /// Whether particles of a file took the place of its own.
-    replaced: bool,
+    /// Files that were put beside it by hand, one after the other.
+    beside: Vec<String>,
 }
 
 /// Loads a scene with the arguments.
 #[cfg(feature = "view")]
 async fn load(args: &ViewArgs, origin: &Origin) -> Result<super::load::Loaded, Failure> {
     use super::args::{BackendChoice, DeviceArgs, SceneArgs};
+    use motes::scene::{Beside, Source};
+    let replaced = origin.beside.iter().any(|file| Beside::of(file) == Some(Beside::Particles));
     let values = args.overrides.iter().filter(|_| origin.own);
     let scene = SceneArgs {
         scene: args.scene.clone(),
@@ -54,15 +54,24 @@ async fn load(args: &ViewArgs, origin: &Origin) -> Result<super::load::Loaded, F
         until: None,
         // Sizes and values of the scene's own particles are none of others.
         overrides: values
-            .filter(|value| !(origin.replaced && value.trim_start().starts_with("particles.")))
+            .filter(|value| !(replaced && value.trim_start().starts_with("particles.")))
             .cloned()
             .collect(),
-        scale: args.scale.filter(|_| origin.own && !origin.replaced),
-        allow_outside: args.allow_outside || origin.outside,
+        scale: args.scale.filter(|_| origin.own && !replaced),
+        // What was put beside it may be anywhere.
+        allow_outside: args.allow_outside || !origin.beside.is_empty(),
         auto_substeps: false,
         device: DeviceArgs { backend: BackendChoice::Gpu, adapter: args.adapter.clone() },
     };
-    super::load::load_from(&origin.source, &scene, &[]).await
+    let mut source = origin.source.clone();
+    for file in &origin.beside {
+        source = source.beside(file)?;
+    }
+    let mut loaded = super::load::load_from(&source, &scene, &[]).await?;
+    if let (Source::File(path), false) = (&origin.source, origin.beside.is_empty()) {
+        loaded.scene.files.push(path.clone());
+    }
+    Ok(loaded)
 }
 
 #[cfg(feature = "view")]
@@ -70,11 +79,13 @@ impl Origin {
     /// The scene of the arguments, or another one of this name.
     fn find(args: &ViewArgs, name: &str) -> Result<Self, Failure> {
         let source = motes::scene::Source::find(name)?;
-        Ok(Self { source, own: name == args.scene, outside: false, replaced: false })
+        Ok(Self { source, own: name == args.scene, beside: Vec::new() })
     }
-    /// The same with a file beside it.
-    fn beside(&self, file: &str) -> Result<Self, Failure> {
-        let (source, replaced) = (self.source.beside(file)?, self.replaced || !motes::scene::is_law(file));
-        Ok(Self { source, own: self.own, outside: true, replaced })
+    /// The same with a file beside it, which takes the place of those that it makes void.
+    fn with(&self, file: &str) -> Self {
+        let mut all = self.clone();
+        all.beside.retain(|known| known != file);
+        all.beside.push(file.to_owned());
+        all
     }
 }

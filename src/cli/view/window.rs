@@ -133,7 +133,7 @@ impl Shell {
         let is_scene = path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("toml"));
         let file = std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
         let name = file.to_string_lossy();
-        self.open_scene(args, if is_scene { Origin::find(args, &name) } else { self.origin.beside(&name) });
+        self.open_scene(args, if is_scene { Origin::find(args, &name) } else { Ok(self.origin.with(&name)) });
     }
     /// Opens another scene. Where it has faults, the present one goes on, and they are said.
     fn open_scene(&mut self, args: &ViewArgs, origin: Result<Origin, Failure>) {

@@ -1,5 +1,7 @@
 //! Validation of a user's law before it is compiled by a driver: it is untrusted text, and drivers do not protect themselves against it.
 
+#[cfg(feature = "panel")]
+mod called;
 mod claims;
 mod depth;
 mod directives;
@@ -17,6 +19,8 @@ use super::message;
 use super::shader::Source;
 use crate::error::Error;
 
+#[cfg(feature = "panel")]
+pub use called::over;
 pub use claims::check as claims;
 pub use depth::check as depth;
 pub use directives::hoisted;

@@ -31,7 +31,7 @@ impl Canvas<'_> {
         let frame = &self.frame;
         let seen = frame.see(x.truncate());
         let part = if frame.heaviest > 0.0 { (x.w / frame.heaviest).clamp(0.0, 1.0).powf(0.125) } else { 1.0 };
-        let size = (v.w.max(frame.water.drop) * seen.scale).max(frame.marker * part.max(LIGHTEST));
+        let size = (v.w.max(frame.water.drop) * frame.magnified * seen.scale).max(frame.marker * part.max(LIGHTEST));
         let is_ball = size >= frame.solid;
         let radius = if is_ball { size.min(frame.largest) } else { 0.0 };
         let reach = if is_ball { radius + 0.5 } else { frame.glow };

@@ -19,7 +19,7 @@ impl Style for Density {
         (2.5 * of.apart).clamp(2.0, (of.short / 40.0).max(2.0))
     }
     fn unused(&self) -> &'static [&'static str] {
-        &["background", "color", "tail", "drop", "clarity", "foam"]
+        &["background", "color", "tail", "size", "drop", "clarity", "foam"]
     }
     fn has_trails(&self) -> bool {
         false

@@ -16,7 +16,7 @@ impl Style for Fluid {
         true
     }
     fn unused(&self) -> &'static [&'static str] {
-        &["tail"]
+        &["tail", "size"]
     }
     fn has_trails(&self) -> bool {
         false

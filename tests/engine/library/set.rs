@@ -154,6 +154,20 @@ fn what_makes_no_sense_is_refused_and_changes_nothing() {
     });
 }
 
+/// A density that is summed in each evaluation, and one that is a state with a rate of its own.
+#[test]
+fn what_changes_the_columns_is_refused() {
+    let shared = device();
+    let forces = |by: &'static str| {
+        vec![force("fluid", &[("density_by", by.into()), ("spacing", 0.1.into()), ("sound_speed", 10.0.into())])]
+    };
+    for (from, to) in [("summation", "continuity"), ("continuity", "summation")] {
+        let mut simulation = on_gpu(&shared, &setup(free(60), forces(from)));
+        let said = simulation.set("fluid", "density_by", to).expect_err(to).to_string();
+        assert!(said.contains("which quantities particles have") && said.contains("snapshot()"), "{said}");
+    }
+}
+
 #[test]
 fn a_motion_changes() {
     let shared = device();

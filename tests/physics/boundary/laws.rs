@@ -119,6 +119,35 @@ fn across_a_seam() {
     }
 }
 
+/// Everywhere in the box a beam along a side of it has images across the others alone, and a slanted one has none across those that it crosses: particles
+/// at its far end are as near to it as those in the middle.
+#[test]
+fn a_slanted_beam_ends_at_the_sides_that_it_crosses() {
+    let at = |bounds: &Bounds, axis: DVec3, x: DVec3| {
+        let settings = [
+            ("position", Value::Vector(DVec3::new(9.0, 5.0, 5.0))),
+            ("axis", Value::Vector(axis)),
+            ("waist", Value::Number(3.0)),
+        ];
+        accelerations_in(bounds, &[force("tweezers", &settings)], &one(x, DVec3::ZERO), 0.0)[0]
+    };
+    let (open, closed) = (Bounds::default(), cube(10.0));
+    let slanted = DVec3::new(1.0, 0.0, 1.0);
+    for along in [-8.5, -6.0, -5.5, -3.0, 0.5] {
+        let x = DVec3::new(9.0, 5.0, 5.0) + along * DVec3::new(1.0, 0.0, 0.5) + DVec3::new(0.0, 0.75, 0.0);
+        let (free, boxed) = (at(&open, slanted, x), at(&closed, slanted, x));
+        assert_eq!(free, boxed, "{x}");
+        assert!(boxed.w < -1e-9, "{x}: nothing is felt");
+        // Across y it has images.
+        let image = (x + DVec3::new(0.0, 9.0, 0.0)).rem_euclid(DVec3::splat(10.0));
+        let mirrored = at(&closed, slanted, image);
+        let want = at(&open, slanted, image - DVec3::new(0.0, 10.0 * ((image.y - 5.0) / 10.0).round(), 0.0));
+        assert_eq!(mirrored, want, "{image}");
+    }
+    let x = DVec3::new(0.5, 5.5, 1.0);
+    assert_eq!(at(&closed, DVec3::Z, x), at(&open, DVec3::Z, x + DVec3::new(10.0, 0.0, 0.0)));
+}
+
 /// In a lattice that fills the box, no place is another: forces cancel, and all have one potential.
 #[test]
 fn a_lattice_is_the_same_everywhere() {
