@@ -4,7 +4,7 @@ use std::borrow::Cow;
 
 use glam::DVec3;
 
-use crate::settings::{Key, Kind, Value};
+use crate::settings::{Key, Kind, Preset, Value};
 
 const fn word(text: &'static str) -> Value {
     Value::Text(Cow::Borrowed(text))
@@ -45,8 +45,9 @@ pub const KEYS: &[Key] = &[
         "style",
         Kind::Choice(super::styles::NAMES),
         word("auto"),
-        "how particles are drawn: as balls where they are few or large, as points of light, as balls, as the surface of a fluid, or as surface density",
-    ),
+        "how particles are drawn: as balls where they are few or large, as points of light, as balls, as the surface of a fluid, or as surface density, with notes unless annotate = false",
+    )
+    .with_presets(&[Preset { word: "density", defaults: &[("annotate", Value::Flag(true))] }]),
     Key::new(
         "size",
         Kind::Positive,

@@ -92,8 +92,8 @@ fn balls() -> Scene {
 /// Balls so large that several layers of a dispatch draw them, and broad trails.
 fn large_balls() -> Scene {
     let words = [("style", "balls"), ("projection", "orthographic"), ("background", "day"), ("color", "group")];
-    let settings = settings(&words, &[]);
-    let mut state = cloud(12, 0.9);
+    let settings = settings(&words, &[("size", 1.25)]);
+    let mut state = cloud(12, 0.72);
     state.position_mut()[3] = DVec3::new(-2.0, 0.4, -0.8);
     let trail = spirals(&state);
     let mut made = scene("large_balls", &settings, state, trail, &Scenery::default());
