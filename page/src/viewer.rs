@@ -101,9 +101,6 @@ impl Viewer {
     pub fn rests(&self) -> bool {
         self.view.as_ref().is_none_or(View::is_paused)
     }
-    pub fn view(&mut self) -> Option<&mut View<Gpu>> {
-        self.view.as_mut()
-    }
     /// The name of the scene, the step, and what is said.
     pub fn status(&mut self) -> (String, u64, String) {
         let view = self.view.as_mut().map(|view| (view.simulation().steps(), view.message().to_owned()));

@@ -270,9 +270,10 @@ document.addEventListener("drop", async (event) => {
   if (faults.length && (at("faults").hidden || at("faults").classList.contains("remarks"))) say(faults.join("\n"), true);
 });
 
-/** The keys of the browser stay its own: reload, find, address, full screen. */
+/** The keys of the browser stay its own: reload, find, address, full screen; Shift + Tab leads out of the canvas, in which Tab goes from one control to the next. */
 document.addEventListener("keydown", (event) => {
-  if (event.target === at("canvas") && (event.ctrlKey || event.metaKey || event.altKey || /^F\d+$/.test(event.key))) event.stopPropagation();
+  if (event.target === at("canvas") && (event.ctrlKey || event.metaKey || event.altKey || /^F\d+$/.test(event.key)
+    || (event.key === "Tab" && event.shiftKey))) event.stopPropagation();
 }, true);
 /** A fault of the program itself, such as a lack of memory. */
 const broken = (event) => {

@@ -272,6 +272,10 @@ const tests = {
       return taken;
     });
     assert.equal(taken, 0, "the browser keeps its keys");
+    await page.keyboard.press("Tab");
+    assert.equal(await page.evaluate(() => document.activeElement.id), "canvas", "Tab goes through the panel");
+    await page.keyboard.press("Shift+Tab");
+    assert.equal(await page.evaluate(() => document.activeElement.id), "link", "Shift + Tab leaves it");
     await page.close();
   },
   async "laws that do not compile are said"() {
