@@ -12,8 +12,8 @@ use crate::support::mutants::Mutant;
 /// Mutants that are compiled together at most: texts with many of them are nested deeply, and drivers take longer for them than for several texts.
 const MOST: usize = 24;
 
-/// Storage buffers of a shader, at most, by the limits of WebGPU.
-const STORAGE: usize = 8;
+/// Storage buffers of a shader, at most: one more than by the limits of WebGPU, which the shaders themselves keep.
+pub const STORAGE: usize = 9;
 
 /// How often a stage was shown a mutant among others, and alone.
 pub static JOINED: AtomicUsize = AtomicUsize::new(0);
