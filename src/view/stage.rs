@@ -17,13 +17,13 @@ use crate::state::State;
 /// How far from a small particle one may point at it, as a part of the height of the picture.
 const NEAR: f64 = 0.012;
 
-/// The scale of colours that show values.
-#[derive(Clone, Copy, PartialEq, Eq)]
-enum Scale {
-    /// That of the values which are shown now.
-    Own,
-    /// That of the picture before, if it shows the same.
-    Kept,
+/// What a picture has of the one before it.
+#[derive(Clone, Copy, Default)]
+struct Kept {
+    /// The scale of colours, if it shows the same. Otherwise it is that of present values.
+    scale: bool,
+    /// The camera, also where it was not moved by hand.
+    camera: bool,
 }
 
 /// A simulation with its picture.
@@ -120,10 +120,12 @@ impl<B: Backend> Stage<B> {
         let frame = &self.live.picture.frame;
         if [frame.width, frame.height] != [width, height] {
             self.pictures.size(width, height);
-            self.compose(Scale::Kept)?;
+            self.compose(Kept { scale: true, camera: false })?;
         }
-        if std::mem::take(&mut self.stale) || self.live.picture.frame.count != self.simulation.capacity() {
-            self.compose_anew(Scale::Own).await?;
+        if std::mem::take(&mut self.stale) {
+            self.compose_anew(Kept { scale: false, camera: true }).await?;
+        } else if self.live.picture.frame.count != self.simulation.capacity() {
+            self.compose_anew(Kept { scale: true, camera: false }).await?;
         }
         self.live.picture.frame.fine = if smooth { self.fine } else { 1 };
         let bounds = self.simulation.bounds().await?;
@@ -135,15 +137,15 @@ impl<B: Backend> Stage<B> {
         self.simulation.show(&mut self.live).await
     }
     /// A picture of the known state; a camera that was moved by hand stays.
-    fn compose(&mut self, scale: Scale) -> Result<(), Error> {
+    fn compose(&mut self, kept: Kept) -> Result<(), Error> {
         let camera = self.live.picture.frame.camera;
         let trail = self.pictures.trail().clone();
         let mut picture = self.pictures.of(&self.framed, trail)?;
-        if self.moved {
+        if self.moved || kept.camera {
             picture.frame.camera = camera;
         }
         let known = &self.live.picture.color;
-        if scale == Scale::Kept && known.shows_as(&picture.color) {
+        if kept.scale && known.shows_as(&picture.color) {
             picture.paint(known.clone());
         }
         self.fine = picture.frame.fine;
@@ -151,9 +153,9 @@ impl<B: Backend> Stage<B> {
         Ok(())
     }
     /// A picture of the present state.
-    async fn compose_anew(&mut self, scale: Scale) -> Result<(), Error> {
+    async fn compose_anew(&mut self, kept: Kept) -> Result<(), Error> {
         self.framed = self.simulation.snapshot().await?;
-        self.compose(scale)
+        self.compose(kept)
     }
     /// Where in the columns the values of the particle lie that the last picture shows at a place \[halves of its height, to the right and up from
     /// its middle\]: of those whose ball covers it the foremost, otherwise the nearest of the small ones that are a few pixels away.
@@ -177,10 +179,11 @@ impl<B: Backend> Stage<B> {
     /// Changes a key of the picture.
     pub async fn look(&mut self, key: &'static str, value: Value) -> Result<(), Error> {
         let old = self.pictures.set(key, value);
-        let composed = self.compose_anew(Scale::Kept).await;
+        let kept = Kept { scale: true, camera: true };
+        let composed = self.compose_anew(kept).await;
         if let (Err(_), Some(old)) = (&composed, old) {
             self.pictures.set(key, old);
-            self.compose(Scale::Kept)?;
+            self.compose(kept)?;
         }
         composed
     }
@@ -212,7 +215,7 @@ impl<B: Backend> Stage<B> {
         let camera = self.live.picture.frame.camera;
         self.pictures.aim(&camera);
         self.moved = false;
-        self.compose_anew(Scale::Own).await
+        self.compose_anew(Kept::default()).await
     }
     /// Changes a setting of a force. Where kernels depend on it, they are compiled anew for the present state, and this is said.
     pub async fn set(&mut self, force: &str, setting: &str, value: Value) -> Result<Option<String>, Error> {
@@ -250,7 +253,7 @@ impl<B: Backend> Stage<B> {
         self.surround();
         *self.pictures.trail() = Trail::new(self.start.state.len());
         self.time = self.start.state.time;
-        self.compose_anew(Scale::Own).await
+        self.compose_anew(Kept::default()).await
     }
     /// A picture of the present state, and a name for its file.
     pub async fn take(&mut self) -> Result<(Image, String), Error> {

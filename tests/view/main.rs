@@ -408,6 +408,30 @@ fn a_ball_is_placed_where_it_is_drawn_and_keeps_particles_out() {
     assert_eq!(hand.forces(), ["gravity"]);
 }
 
+/// What is placed, and another background, leave the camera where it is, though the particles have moved since it framed them.
+#[test]
+fn the_camera_stays_while_one_plays() {
+    let mut hand = Hand::on("plummer", &["particles.0.count=3", "particles.0.seed=4"]);
+    hand.key(Key::H, Modifiers::NONE);
+    hand.frames(3);
+    hand.until(150);
+    hand.key(Key::Space, Modifiers::NONE);
+    hand.frames(3);
+    let width = hand.size()[0] as usize;
+    let seen = |hand: &mut Hand, count| spots(&hand.picture(), width, (820.0, 60.0), count);
+    let before = seen(&mut hand, 3);
+    let corner = Pos2::new(60.0, 1100.0);
+    (0..3).for_each(|_| hand.key(Key::G, Modifiers::NONE));
+    hand.hold(corner, corner + Vec2::new(20.0, 0.0), 1);
+    assert_eq!(hand.forces(), ["gravity", "solid"], "{}", hand.message());
+    hand.frames(3);
+    let after = seen(&mut hand, 5);
+    for spot in &before {
+        let moved = after.iter().map(|at| (*at - *spot).length()).fold(f32::INFINITY, f32::min);
+        assert!(moved < 2.0, "{spot:?} has moved by {moved} pixels: {after:?}");
+    }
+}
+
 /// Scenes of each kind take a pull and a ball: their kernels compile with them, and steps go on.
 #[test]
 fn scenes_of_each_kind_can_be_played_with() {

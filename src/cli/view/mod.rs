@@ -81,7 +81,7 @@ impl Origin {
         let source = motes::scene::Source::find(name)?;
         Ok(Self { source, own: name == args.scene, beside: Vec::new() })
     }
-    /// The same with a file beside it, which takes the place of those that it makes void.
+    /// The same with a file beside it, after those before.
     fn with(&self, file: &str) -> Self {
         let mut all = self.clone();
         all.beside.retain(|known| known != file);

@@ -137,7 +137,7 @@ fn a_slanted_beam_ends_at_the_sides_that_it_crosses() {
         let x = DVec3::new(9.0, 5.0, 5.0) + along * DVec3::new(1.0, 0.0, 0.5) + DVec3::new(0.0, 0.75, 0.0);
         let (free, boxed) = (at(&open, slanted, x), at(&closed, slanted, x));
         assert_eq!(free, boxed, "{x}");
-        assert!(boxed.w < -1e-9, "{x}: nothing is felt");
+        assert!(boxed.w < -1e-9, "{x}: it has no potential");
         // Across y it has images.
         let image = (x + DVec3::new(0.0, 9.0, 0.0)).rem_euclid(DVec3::splat(10.0));
         let mirrored = at(&closed, slanted, image);
