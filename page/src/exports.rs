@@ -1,6 +1,5 @@
 //! What the page's script calls.
 
-use std::path::PathBuf;
 use std::rc::Rc;
 
 use motes::scene::{Beside, SCENES, Source};
@@ -107,8 +106,7 @@ impl Viewer {
     ) -> Result<Vec<String>, JsError> {
         let files = files.as_chunks().0.iter();
         let files = files.map(|[name, text]| (name.clone(), text.clone().into_bytes())).collect();
-        let source =
-            Source::Memory { name: PathBuf::from(name).with_extension("toml").display().to_string(), text, files };
+        let source = Source::Memory { name: format!("{name}.toml"), text, files };
         let wanted = Wanted { source, overrides, scale, paused };
         let loaded = self.0.viewer.lock().await.load(&wanted).await;
         self.0.wake();

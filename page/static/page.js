@@ -91,8 +91,9 @@ const follow = async () => {
   }
   await run(next, paused);
 };
-/** Runs a scene; if it has faults, what runs goes on. */
+/** Runs a scene; if it has faults, what runs goes on. Whether it runs. */
 const run = (next, paused = false) => {
+  let runs = !viewer;
   loads = loads.then(async () => {
     const changed = open.name !== next.name;
     open = next;
@@ -106,13 +107,14 @@ const run = (next, paused = false) => {
       const remarks = await viewer.load(next.name, next.text, [...next.files].flat(), next.overrides, next.scale, paused);
       say(remarks.join("\n"), true);
       if (at("editor").hidden) at("canvas").focus({ preventScroll: true });
+      runs = true;
       document.title = `motes: ${next.name}`;
       at("title").textContent = `${next.name}: ${sentence(about(next.text))}`;
     } catch (why) {
       refuse(why.message);
     }
   });
-  return loads;
+  return loads.then(() => runs);
 };
 /** Runs a scene that has a place of its own among those that were open: the way back leads to what ran before. */
 const begin = async (next, paused = false) => {
@@ -229,8 +231,8 @@ const words = (bytes) => {
 const beside = async (next, file) => {
   const bytes = new Uint8Array(await file.arrayBuffer());
   const [kind, text] = [kindOf(file.name), words(bytes)];
-  const named = ['"', "'"].some((mark) => next.text.includes(mark + file.name + mark));
-  const whole = named ? next.text : withFile(next.text, file.name, text ?? "");
+  const whole = withFile(next.text, file.name, text ?? "");
+  const named = whole === next.text;
   const files = new Map(next.files);
   files.delete(file.name);
   if (text !== undefined && kind !== "particles" && text.length < LONGEST) {
@@ -245,14 +247,19 @@ const beside = async (next, file) => {
 };
 /** Files that are dropped. What cannot be used is said, and the rest is run. */
 document.addEventListener("dragover", (event) => event.preventDefault());
-document.addEventListener("drop", async (event) => {
+let drops = Promise.resolve();
+document.addEventListener("drop", (event) => {
   event.preventDefault();
   const all = [...(event.dataTransfer?.files ?? [])];
+  // One after the other: each is beside what the one before has made.
+  drops = drops.then(() => dropped(all));
+});
+const dropped = async (all) => {
   const [scenes, others] = [true, false].map((wanted) => all.filter((file) => /\.toml$/i.test(file.name) === wanted));
   const paused = (await viewer?.status())?.paused ?? false;
   let next = open;
   for (const file of scenes) {
-    next = { ...next, name: file.name.replace(/\.toml$/i, ""), text: await file.text(), overrides: [], scale: undefined, own: true };
+    next = { ...next, name: file.name.replace(/\.toml$/i, "") || "scene", text: await file.text(), overrides: [], scale: undefined, own: true };
   }
   const faults = [];
   for (const file of others) {
@@ -263,12 +270,20 @@ document.addEventListener("drop", async (event) => {
     }
   }
   toggle(true);
+  const before = open;
   if (next !== open) {
-    await begin(next, paused && !scenes.length);
-    keep();
+    if (await run(next, paused && !scenes.length)) {
+      const url = await address(next);
+      if (url && url !== location.href) history.pushState(null, "", url);
+      keep();
+    } else {
+      // What was written before is not lost by a file that is no good.
+      open = before;
+      edit();
+    }
   }
   if (faults.length && (at("faults").hidden || at("faults").classList.contains("remarks"))) say(faults.join("\n"), true);
-});
+};
 
 /** The keys of the browser stay its own: reload, find, address, full screen; Shift + Tab leads out of the canvas, in which Tab goes from one control to the next. */
 document.addEventListener("keydown", (event) => {

@@ -75,12 +75,15 @@ impl Color {
     }
     /// Whether values with a scale of their own are shown well on this one: they neither reach far beyond it nor fill less than half of it.
     pub(crate) fn fits(&self, own: &Self) -> bool {
-        if let (Self::Value(known), Self::Value(own)) = (self, own)
-            && known.logarithmic != own.logarithmic
-        {
-            return false;
-        }
-        let ((low, high), (least, most)) = (self.ends(), own.ends());
+        let (least, most) = match (self, own) {
+            (Self::Value(known), Self::Value(own)) if known.logarithmic && own.low <= 0.0 => return false,
+            // On the kind of scale that there is, which values near the border of both would change again and again.
+            (Self::Value(known), Self::Value(own)) => {
+                Scaled { logarithmic: known.logarithmic, ..(**own).clone() }.ends()
+            }
+            _ => own.ends(),
+        };
+        let (low, high) = self.ends();
         let (width, filled) = (high - low, most - least);
         (low - least).max(most - high) <= 0.5 * width && filled >= 0.5 * width
     }
@@ -249,7 +252,9 @@ mod tests {
         };
         assert!(column(1.0, 1e4, true).fits(&column(0.1, 1e4, true)));
         assert!(!column(1.0, 1e4, true).fits(&column(1e-3, 1e4, true)));
-        assert!(!column(1.0, 1e4, true).fits(&column(1.0, 1e4, false)));
+        assert!(column(1.0, 120.0, true).fits(&column(1.0, 80.0, false)));
+        assert!(column(1.0, 80.0, false).fits(&column(1.0, 101.0, true)));
+        assert!(!column(1.0, 1e4, true).fits(&column(0.0, 1e4, false)));
         assert!(column(1.0, 3.0, false).shows_as(&Color::Column("velocity".to_owned())));
         assert!(!column(1.0, 3.0, false).shows_as(&Color::Column("position".to_owned())));
     }

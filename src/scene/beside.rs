@@ -42,14 +42,24 @@ impl Beside {
 
 /// The text of a scene in which a file has a part, by its extension: a file of particles takes the place of all of its `[[particles]]`, a floor plan that of its
 /// `[plan]`, and a WGSL file becomes one more `[[force]]`, called as its functions are (`law` is its text; of others it is not needed). The rest stays as it
-/// was written. A scene that names a law of this name already stays as it is.
+/// was written. A scene that names the file already stays as it is.
 ///
 /// # Errors
 /// [`Error::Scene`] when the file is of another kind, the scene is no TOML, or it has no floor plan.
 pub fn with_file(text: &str, name: &str, law: &str) -> Result<String, Error> {
+    let plain = |name: &str| name.trim_start_matches("./").to_owned();
+    with(text, name, law, &|known| plain(known) == plain(name))
+}
+
+/// The same, where `is_it` says whether a name in the scene is that of the file.
+fn with(text: &str, name: &str, law: &str, is_it: &dyn Fn(&str) -> bool) -> Result<String, Error> {
     let mut scene: DocumentMut = text.parse().map_err(|why: toml_edit::TomlError| {
         Error::Scene(format!("the scene cannot be read: {}", why.message().replace('\n', ", ")))
     })?;
+    // Names are texts of the scene itself, and not of its comments.
+    if text.parse::<toml::Table>().is_ok_and(|scene| names(&toml::Value::Table(scene), is_it)) {
+        return Ok(text.to_owned());
+    }
     match Beside::of(name) {
         Some(Beside::Law) => add(&mut scene, name, kernel::over(law))?,
         Some(Beside::Particles) => replace(&mut scene, name),
@@ -68,24 +78,28 @@ pub fn with_file(text: &str, name: &str, law: &str) -> Result<String, Error> {
     Ok(scene.to_string())
 }
 
-/// One more force, unless it is there.
+/// Whether a value is such a text, or has one in it.
+fn names(value: &toml::Value, is_it: &dyn Fn(&str) -> bool) -> bool {
+    match value {
+        toml::Value::String(text) => is_it(text),
+        toml::Value::Array(all) => all.iter().any(|one| names(one, is_it)),
+        toml::Value::Table(all) => all.values().any(|one| names(one, is_it)),
+        _ => false,
+    }
+}
+
+/// One more force.
 fn add(scene: &mut DocumentMut, name: &str, over: &str) -> Result<(), Error> {
-    let of = |of: Option<&Item>| of.and_then(Item::as_str) == Some(name);
     let pairs = [("wgsl", name), ("over", over)];
     match scene.entry("force").or_insert_with(|| Item::ArrayOfTables(ArrayOfTables::new())) {
         Item::ArrayOfTables(all) => {
-            if !all.iter().any(|one| of(one.get("wgsl"))) {
-                let mut entry = Table::from_iter(pairs);
-                entry.decor_mut().set_prefix("\n");
-                all.push(entry);
-            }
+            let mut entry = Table::from_iter(pairs);
+            entry.decor_mut().set_prefix("\n");
+            all.push(entry);
             Ok(())
         }
         Item::Value(Value::Array(all)) => {
-            let is_it = |one: &Value| one.as_inline_table().and_then(|one| one.get("wgsl")?.as_str()) == Some(name);
-            if !all.iter().any(is_it) {
-                all.push(InlineTable::from_iter(pairs));
-            }
+            all.push(InlineTable::from_iter(pairs));
             Ok(())
         }
         _ => Err(Error::Scene("its `force` is no list of forces: write each as `[[force]]`".to_owned())),
@@ -150,7 +164,13 @@ impl Source {
     pub fn beside(&self, name: &str) -> Result<Self, Error> {
         let opened = self.open().map_err(|faults| Error::Scene(faults.to_string()))?;
         let law = if Beside::of(name) == Some(Beside::Law) { law(name)? } else { String::new() };
-        let text = with_file(&opened.text, name, &law)?;
+        let found = std::fs::canonicalize(name).ok();
+        let folder = opened.folder.clone().unwrap_or_default();
+        let is_it = |known: &str| {
+            let path = folder.join(known);
+            known == name || found.is_some() && path.is_file() && std::fs::canonicalize(path).ok() == found
+        };
+        let text = with(&opened.text, name, &law, &is_it)?;
         let name = format!("{}.toml", opened.name);
         Ok(match opened.folder {
             Some(folder) if opened.embedded.is_empty() => Self::Text { name, text, folder },
@@ -230,6 +250,17 @@ mod tests {
             let scene = Source::Text { name: "a.toml".into(), text: SCENE.into(), folder: folder.path().into() };
             scene.beside(&path.to_string_lossy()).map(|_| ()).map_err(|why| why.to_string())
         };
+        let named = Source::Text {
+            name: "a.toml".into(),
+            text: "# \"other.wgsl\"\n[[force]]\nwgsl = \"./law.wgsl\"\nover = \"each\"\n".into(),
+            folder: folder.path().into(),
+        };
+        for (name, forces) in [("law.wgsl", 1), ("other.wgsl", 2)] {
+            let path = folder.path().join(name);
+            std::fs::write(&path, LAW).expect("a file");
+            let Ok(Source::Text { text, .. }) = named.beside(&path.to_string_lossy()) else { panic!("a text") };
+            assert_eq!(parsed(&text)["force"].as_array().map(Vec::len), Some(forces), "{text}");
+        }
         assert!(said("law.wgsl", &|path| std::fs::write(path, LAW).expect("a file")).is_ok());
         let folder = said("folder.wgsl", &|path| std::fs::create_dir(path).expect("a folder"));
         assert!(folder.expect_err("a folder").contains("no regular file"));

@@ -1,7 +1,7 @@
 //! The panel, and the place of the picture.
 
 use egui::{
-    CentralPanel, CollapsingHeader, Color32, ComboBox, Frame, Image, Panel, PointerButton, Pos2, Rect, Response,
+    CentralPanel, CollapsingHeader, Color32, ComboBox, Frame, Image, Label, Panel, PointerButton, Pos2, Rect, Response,
     ScrollArea, Sense, Slider, Stroke, Ui, Vec2, load::SizedTexture, pos2,
 };
 
@@ -74,10 +74,9 @@ fn panel<B: Backend>(view: &mut View<B>, ui: &mut Ui) {
     ui.separator();
     run(view, ui);
     tool::show(&mut view.hand, view.stage.balls(), ui, &mut view.actions);
-    if !view.message.is_empty() {
-        let color = if view.faulty { ui.visuals().error_fg_color } else { ui.visuals().warn_fg_color };
-        ui.colored_label(color, &view.message);
-    }
+    let (bad, warn) = (ui.visuals().error_fg_color, ui.visuals().warn_fg_color);
+    say(view.fault.as_deref().unwrap_or_default(), bad, ui);
+    say(&view.message, warn, ui);
     ui.separator();
     if let Some(chosen) = &view.chosen {
         let title = format!("Particle {}", chosen.id);
@@ -88,6 +87,17 @@ fn panel<B: Backend>(view: &mut View<B>, ui: &mut Ui) {
     CollapsingHeader::new("Picture").default_open(true).show(ui, |ui| looks(view, ui));
     forces(view, ui);
     CollapsingHeader::new("Energy").default_open(false).show(ui, |ui| view.energies.show(ui));
+}
+
+/// Says something; lines that point at places of a text stand below each other.
+fn say(text: &str, color: Color32, ui: &mut Ui) {
+    if text.contains('\n') {
+        ScrollArea::horizontal().id_salt(("said", color)).show(ui, |ui| {
+            ui.add(Label::new(egui::RichText::new(text).monospace().color(color)).extend());
+        });
+    } else if !text.is_empty() {
+        ui.colored_label(color, text);
+    }
 }
 
 fn run<B: Backend>(view: &mut View<B>, ui: &mut Ui) {

@@ -35,8 +35,11 @@ impl Energies {
             self.rows.pop_front();
         }
         self.rows.push_back(row);
-        self.times.done();
         Ok(())
+    }
+    /// All that is done with the state was done.
+    pub fn done(&mut self) {
+        self.times.done();
     }
     /// Plots them.
     pub fn show(&self, ui: &mut Ui) {

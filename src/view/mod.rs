@@ -67,8 +67,8 @@ pub struct View<B: Backend> {
     texture: Option<TextureId>,
     /// What is said below the picture.
     message: String,
-    /// Whether a fault has stopped the run.
-    faulty: bool,
+    /// The fault that has stopped the run.
+    fault: Option<String>,
     taken: Option<Taken>,
     recording: Option<Recording>,
     /// The scene that the shell is asked to open.
@@ -96,7 +96,7 @@ impl<B: Backend> View<B> {
             size: [640, 384],
             texture: None,
             message: String::new(),
-            faulty: false,
+            fault: None,
             taken: None,
             recording: None,
             wanted: None,
@@ -132,7 +132,7 @@ impl<B: Backend> View<B> {
     }
     /// Pauses the run, or goes on.
     pub fn pause(&mut self, paused: bool) {
-        self.paused = paused || self.faulty;
+        self.paused = paused || self.fault.is_some();
         if !self.paused && self.message == STILL {
             self.message.clear();
         }
@@ -147,10 +147,25 @@ impl<B: Backend> View<B> {
     pub fn is_paused(&self) -> bool {
         self.paused
     }
-    /// What is said to the user, if anything.
+    /// What is said to the user, if anything: what was said last, or else why the run has stopped.
     #[must_use]
     pub fn message(&self) -> &str {
-        &self.message
+        match &self.fault {
+            Some(fault) if self.message.is_empty() => fault,
+            _ => &self.message,
+        }
+    }
+    /// Goes on as a view of the same scene before it was read again: paused or not, as fast, from where it was seen, with the same tool.
+    pub fn follow(&mut self, before: &Self) {
+        self.paused = before.paused && before.fault.is_none();
+        self.pace.wanted = before.pace.wanted;
+        self.hand.tool = before.hand.tool;
+        (self.hand.reach, self.hand.strength) = (before.hand.reach, before.hand.strength);
+        (self.panel, self.help, self.size) = (before.panel, before.help, before.size);
+        if before.stage.moved() {
+            let camera = before.stage.picture().frame.camera;
+            self.stage.camera(|_| camera);
+        }
     }
     /// A picture or a film that was asked for, once.
     pub fn take(&mut self) -> Option<Taken> {
@@ -187,8 +202,10 @@ impl<B: Backend> View<B> {
         if !self.paused {
             let steps = self.pace.steps();
             if let Err(error) = self.step(steps).await {
-                (self.paused, self.faulty) = (true, true);
+                let said = std::mem::take(&mut self.message);
                 self.refuse(error)?;
+                self.paused = true;
+                self.fault = Some(std::mem::replace(&mut self.message, said));
             }
         }
         if let Err(error) = self.find().await {
@@ -258,8 +275,7 @@ impl<B: Backend> View<B> {
     async fn pull(&mut self, across: f64, up: f64) -> Result<(), Error> {
         let Some(sign) = self.hand.tool.sign() else { return Ok(()) };
         if self.paused {
-            // Why it was stopped stays said.
-            if !self.faulty {
+            if self.fault.is_none() {
                 self.say(STILL);
             }
             return Ok(());
@@ -292,6 +308,7 @@ impl<B: Backend> View<B> {
             if self.recording.is_none() {
                 self.stage.follow(&snapshot).await?;
             }
+            self.energies.done();
         }
         Ok(())
     }
@@ -380,7 +397,9 @@ impl<B: Backend> View<B> {
         self.energies = Energies::default();
         self.chosen.iter_mut().for_each(Chosen::restarted);
         self.message.clear();
-        self.faulty = false;
+        if self.fault.take().is_some() {
+            self.paused = false;
+        }
     }
     /// Whether it lies in a plane and is seen from above: a camera that turns would show nothing new.
     fn is_flat(&self) -> bool {

@@ -82,6 +82,10 @@ impl<B: Backend> Stage<B> {
     pub fn time(&self) -> f64 {
         self.time
     }
+    /// Whether the camera was moved by hand.
+    pub fn moved(&self) -> bool {
+        self.moved
+    }
     pub fn picture(&self) -> &Picture {
         &self.live.picture
     }

@@ -81,6 +81,15 @@ impl Origin {
         let source = motes::scene::Source::find(name)?;
         Ok(Self { source, own: name == args.scene, beside: Vec::new() })
     }
+    /// Whether it is the same scene, perhaps with other files beside it.
+    fn is_of(&self, other: &Self) -> bool {
+        use motes::scene::Source;
+        match (&self.source, &other.source) {
+            (Source::File(one), Source::File(two)) => one == two,
+            (Source::Builtin(one), Source::Builtin(two)) => one.name == two.name,
+            _ => false,
+        }
+    }
     /// The same with a file beside it, after those before.
     fn with(&self, file: &str) -> Self {
         let mut all = self.clone();

@@ -142,7 +142,10 @@ impl Shell {
             let origin = origin?;
             let loaded = super::load(args, &origin).await?;
             let (files, title) = (loaded.scene.files.clone(), loaded.scene.name.clone());
-            let view = View::new(&loaded.scene, loaded.setup, make(&self.found)).await?;
+            let mut view = View::new(&loaded.scene, loaded.setup, make(&self.found)).await?;
+            if origin.is_of(&self.origin) {
+                view.follow(&self.view);
+            }
             Ok::<_, Failure>((view, files, title, origin))
         });
         match opened {
