@@ -26,4 +26,6 @@ pub const OPEN: &[Open] = &[
     open("shaders/crowds/ways.wgsl", 6),
     open("shaders/interactions/navigate.wgsl", 26),
     open("shaders/interactions/social_wall.wgsl", 17),
+    // No stage has a periodic box about a beam; `tests/physics/boundary/laws.rs` has.
+    open("shaders/interactions/tweezers.wgsl", 1),
 ];
