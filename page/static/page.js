@@ -116,11 +116,10 @@ const run = (next, paused = false) => {
   });
   return loads.then(() => runs);
 };
-/** Runs a scene that has a place of its own among those that were open: the way back leads to what ran before. */
-const begin = async (next, paused = false) => {
+/** Gives a scene a place of its own among those that were open: the way back leads to what ran before. */
+const remember = async (next) => {
   const url = await address(next);
   if (url && url !== location.href) history.pushState(null, "", url);
-  await run(next, paused);
 };
 const refuse = (text) => {
   say(text);
@@ -154,7 +153,8 @@ at("text").onkeydown = (event) => {
 };
 at("editor").onsubmit = async (event) => {
   event.preventDefault();
-  await begin(open);
+  await remember(open);
+  await run(open);
 };
 at("edit").onclick = () => toggle(at("editor").hidden);
 at("law").onclick = () => {
@@ -273,8 +273,7 @@ const dropped = async (all) => {
   const before = open;
   if (next !== open) {
     if (await run(next, paused && !scenes.length)) {
-      const url = await address(next);
-      if (url && url !== location.href) history.pushState(null, "", url);
+      await remember(next);
       keep();
     } else {
       // What was written before is not lost by a file that is no good.

@@ -133,7 +133,7 @@ fn replace(scene: &mut DocumentMut, name: &str) {
 fn draw(scene: &mut DocumentMut, name: &str) -> Result<(), Error> {
     let Some(plan) = scene.get_mut("plan").and_then(Item::as_table_like_mut) else {
         return Err(Error::Scene(format!(
-            "the scene has no floor plan whose place {name} could take: write one with `[plan]` and `file = \"{name}\"`, and forces of pedestrians"
+            "the scene has no floor plan that {name} could replace: write `[plan]` with `file = \"{name}\"` into it, and forces such as `social_force`"
         )));
     };
     for key in ["wkt", "exits", "scale", "pixel"] {

@@ -280,9 +280,6 @@ impl<B: Backend> View<B> {
             }
             return Ok(());
         }
-        if self.message == STILL {
-            self.message.clear();
-        }
         self.stage.pull(across, up, self.hand.reach, sign * self.hand.strength).await
     }
     async fn choose(&mut self, across: f64, up: f64) -> Result<(), Error> {
