@@ -121,6 +121,10 @@ impl Viewer {
         self.0.wake();
         Ok(vec![energy.time, energy.kinetic, energy.potential])
     }
+    /// What was changed by hand in forces, picture and camera, in the form of `--set`: `force.0.softening=0.1`.
+    pub async fn changes(&self) -> Vec<String> {
+        self.0.viewer.lock().await.changes()
+    }
     /// How the run stands.
     pub async fn status(&self) -> Result<Status, JsError> {
         let mut viewer = self.0.viewer.lock().await;

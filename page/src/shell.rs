@@ -84,7 +84,11 @@ impl Shell {
             match again {
                 Ok(true) => shell.window.request_redraw(),
                 Ok(false) => (),
-                Err(why) => *shell.failed.borrow_mut() = Some(why.to_string()),
+                Err(why) => {
+                    let ended = shell.viewer.lock().await.close().err();
+                    let more = ended.map_or(String::new(), |more| format!("; {more}"));
+                    *shell.failed.borrow_mut() = Some(format!("{why}{more}"));
+                }
             }
         });
     }

@@ -1,5 +1,6 @@
 //! A scene that runs on a canvas.
 
+use std::collections::VecDeque;
 use std::sync::Arc;
 
 use egui::Context;
@@ -34,7 +35,7 @@ pub struct Viewer {
     view: Option<View<Gpu>>,
     /// The name of the scene that runs.
     name: String,
-    taken: Option<Taken>,
+    taken: VecDeque<Taken>,
     /// Files of bytes, for scenes that name them.
     held: Vec<(String, Vec<u8>)>,
     /// Scenes that the panel asks for are opened by the page's script, which knows the link.
@@ -53,7 +54,7 @@ impl Viewer {
             size,
             view: None,
             name: String::new(),
-            taken: None,
+            taken: VecDeque::new(),
             held: Vec::new(),
             asked: None,
         })
@@ -93,8 +94,8 @@ impl Viewer {
         view.pause(wanted.paused);
         self.found.faults.check().map_err(words)?;
         self.name.clone_from(&scene.name);
-        let film = self.view.replace(view).map(|mut view| view.end()).transpose().map_err(words)?.flatten();
-        self.taken = film.or(self.taken.take());
+        let mut before = self.view.replace(view);
+        self.end(&mut before).map_err(words)?;
         Ok(remarks)
     }
     /// Whether nothing moves, so that no frame is due.
@@ -107,8 +108,26 @@ impl Viewer {
         let (steps, said) = view.unwrap_or_default();
         (self.name.clone(), steps, said)
     }
+    /// What was changed by hand, in the form of `--set`.
+    pub fn changes(&self) -> Vec<String> {
+        self.view.as_ref().map(View::changes).unwrap_or_default()
+    }
+    /// The next picture or film that was taken, once.
     pub fn taken(&mut self) -> Option<Taken> {
-        self.taken.take()
+        self.taken.pop_front()
+    }
+    /// No more frames are made: what was filmed is not lost.
+    pub fn close(&mut self) -> Result<(), Error> {
+        let mut view = self.view.take();
+        let ended = self.end(&mut view);
+        self.view = view;
+        ended
+    }
+    fn end(&mut self, view: &mut Option<View<Gpu>>) -> Result<(), Error> {
+        let Some(view) = view else { return Ok(()) };
+        let ended = view.end();
+        self.taken.extend(std::iter::from_fn(|| view.take()));
+        ended
     }
     pub fn asked(&mut self) -> Option<String> {
         self.asked.take()
@@ -139,7 +158,7 @@ impl Viewer {
         if let Some(view) = &mut self.view {
             view.advance().await?;
             self.asked = view.wanted().or(self.asked.take());
-            self.taken = view.take().or(self.taken.take());
+            self.taken.extend(std::iter::from_fn(|| view.take()));
             let size = view.size();
             if let Some(pixels) = view.simulation().buffer(PICTURE) {
                 let id = self.surface.canvas().take(pixels, size)?;

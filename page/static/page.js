@@ -8,6 +8,8 @@ let viewer;
 /** What is open: a name, a text, files (names and texts) and values; the tab that is edited; whether it is as it was built in. */
 let open = { name: "", text: "", files: new Map(), overrides: [], scale: undefined };
 let tab = "";
+/** The title of the page before anything has run. */
+const TITLE = document.title;
 let loads = Promise.resolve();
 
 /** The first comment of a scene. */
@@ -29,6 +31,13 @@ const packed = async (text) => {
   return btoa(Array.from(bytes, (byte) => String.fromCharCode(byte)).join("")).replace(/\+/g, "-").replace(/\//g, "_").replace(/=+$/, "");
 };
 const unpacked = async (words) => {
+  try {
+    return await inflated(words);
+  } catch {
+    throw new Error("its text is damaged, or not all of it was copied");
+  }
+};
+const inflated = async (words) => {
   const bytes = Uint8Array.from(atob(words.replace(/-/g, "+").replace(/_/g, "/")), (letter) => letter.charCodeAt(0));
   return new Response(new Blob([bytes]).stream().pipeThrough(new DecompressionStream("deflate-raw"))).text();
 };
@@ -63,6 +72,8 @@ const draft = () => {
   }
 };
 const given = ({ name, text, files }) => ({ name: String(name), text: String(text), files: new Map(Object.entries(files ?? {})), own: true });
+/** A scene as an entry of the browser's history keeps it, for the way back to it. */
+const record = ({ name, text, files, overrides, scale, own }) => ({ scene: { name, text, files: Object.fromEntries(files), overrides, scale, own } });
 
 /** Opens what a link names: `#scene=galaxy&scale=0.5&simulation.dt=0.01`, or `#text=…`. */
 const follow = async () => {
@@ -73,12 +84,17 @@ const follow = async () => {
     if (!["scene", "scale", "paused", "text", "draft"].includes(key)) next.overrides.push(`${key}=${value}`);
   }
   if (link.has("scale")) next.scale = Number(link.get("scale"));
+  const kept = history.state?.scene;
   try {
-    if (link.has("text")) {
+    if (kept) {
+      Object.assign(next, kept, { files: new Map(Object.entries(kept.files)) });
+    } else if (link.has("text")) {
       Object.assign(next, given({ name: next.name, ...JSON.parse(await unpacked(link.get("text"))) }));
     } else if (link.has("draft")) {
       if (!draft()) throw new Error("nothing was edited in this browser");
       Object.assign(next, given(draft()));
+      // What is edited later is another one.
+      history.replaceState(record(next), "");
     } else if (scenes.has(next.name)) {
       const { text, files } = scenes.get(next.name);
       Object.assign(next, { text, files: new Map(files) });
@@ -119,12 +135,17 @@ const run = (next, paused = false) => {
 /** Gives a scene a place of its own among those that were open: the way back leads to what ran before. */
 const remember = async (next) => {
   const url = await address(next);
-  if (url && url !== location.href) history.pushState(null, "", url);
+  if (url === location.href) return;
+  try {
+    history.pushState(record(next), "", url ?? `#scene=${encodeURIComponent(next.name)}`);
+  } catch {
+    // A browser may keep no text as long as this one.
+  }
 };
 const refuse = (text) => {
   say(text);
   toggle(true);
-  shown("this scene has faults, which stand beside it; what ran before goes on", true);
+  shown(`this scene has faults, which stand beside it${document.title === TITLE ? "" : "; what ran before goes on"}`, true);
 };
 
 /** The editor. */
@@ -184,7 +205,9 @@ const address = async ({ name, text, files, overrides, scale, own }) => {
   return `${location.href.split("#")[0]}#${link}`;
 };
 at("link").onclick = async () => {
-  const url = await address(open);
+  // What was changed by hand since then belongs to it.
+  const changes = await viewer?.changes() ?? [];
+  const url = await address({ ...open, overrides: [...open.overrides, ...changes] });
   if (!url) return shown("this scene is too long for a link: save it as a file", true);
   if ([...held].some((name) => open.text.includes(name))) return shown("a link does not carry files of particles: save the scene, and keep them beside it", true);
   history.replaceState(null, "", url);
@@ -195,8 +218,8 @@ at("link").onclick = async () => {
 at("scenes").onclick = () => at("gallery").showModal();
 at("close").onclick = () => at("gallery").close();
 const go = (hash) => {
-  if (location.hash === hash) follow();
-  else location.hash = hash;
+  if (location.hash !== hash || history.state?.scene) history.pushState(null, "", hash);
+  follow();
 };
 const card = (name, title, text, hash) => {
   const card = document.createElement("a");
@@ -348,7 +371,7 @@ const start = async () => {
   }
   // What tests call.
   window.motes = viewer;
-  window.addEventListener("hashchange", follow);
+  window.addEventListener("popstate", follow);
   await follow();
 };
 start().catch((why) => shown(`the page cannot start: ${why.message}`, true));

@@ -95,12 +95,21 @@ pub fn load_from(source: &Source, args: &SceneArgs, more: &[String]) -> Result<S
     overrides.extend_from_slice(more);
     overrides.extend(args.steps.map(|n| format!("simulation.steps={n}")));
     overrides.extend(args.until.map(|t| format!("simulation.until={t:?}")));
-    let options = Options { allow_outside: args.allow_outside, ..Options::default() };
-    let scene = Scene::load(source, &overrides, &options)?;
-    let Some(factor) = args.scale else { return Ok(scene) };
+    load_scaled(source, overrides, args.scale, &Options { allow_outside: args.allow_outside, ..Options::default() })
+}
+
+/// Loads a scene with these overrides, and so many times its particles.
+pub fn load_scaled(
+    source: &Source,
+    mut overrides: Vec<String>,
+    scale: Option<f64>,
+    options: &Options,
+) -> Result<Scene, Failure> {
+    let scene = Scene::load(source, &overrides, options)?;
+    let Some(factor) = scale else { return Ok(scene) };
     let scaled = scene.scaled(factor)?;
     overrides.extend_from_slice(&scaled);
-    let mut scene = Scene::load(source, &overrides, &options)?;
+    let mut scene = Scene::load(source, &overrides, options)?;
     scene.remarks.push(format!("--scale {factor} sets {}", scaled.join(", ")));
     Ok(scene)
 }

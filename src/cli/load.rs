@@ -84,7 +84,12 @@ pub async fn load(args: &SceneArgs, more: &[String]) -> Result<Loaded, Failure> 
 
 /// Loads a scene of another source with the same arguments.
 pub async fn load_from(source: &Source, args: &SceneArgs, more: &[String]) -> Result<Loaded, Failure> {
-    Ok(judge(engine::load_from(source, args, more)?).await?.with_unsafe_steps())
+    examined(engine::load_from(source, args, more)?).await
+}
+
+/// Examines a loaded scene, with a remark where its steps are too long.
+pub async fn examined(scene: Scene) -> Result<Loaded, Failure> {
+    Ok(judge(scene).await?.with_unsafe_steps())
 }
 
 impl Loaded {

@@ -111,6 +111,8 @@ pub trait Component: Copied + Send + Sync {
 /// A setting of a component: its name, the values that it accepts, and the present one.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Setting<'a> {
+    /// The table of the force in which a scene gives it, such as `params`; none where it stands in the force itself.
+    pub table: Option<&'static str>,
     /// The name in scenes, and of [`Simulation::set`](crate::Simulation::set).
     pub name: &'a str,
     /// The values that it accepts.

@@ -96,8 +96,10 @@ impl Component for Custom {
             Value::Flag(_) => Kind::Flag,
             _ => Kind::Number,
         };
-        let one =
-            |(name, value)| Setting { name, kind: kind(value), default: None, about: "a parameter of the law", value };
+        let one = |(name, value)| {
+            let (kind, about) = (kind(value), "a parameter of the law");
+            Setting { table: Some("params"), name, kind, default: None, about, value }
+        };
         self.params.iter().map(|(name, value)| one((name.as_str(), value))).collect()
     }
     fn changed(&self, name: &str, to: &Change) -> Result<Box<dyn Component>, Error> {

@@ -103,6 +103,12 @@ pub const KEYS: &[Key] = &[
         "brightness of lights, as a multiple of the automatic one",
     ),
     Key::new(
+        "bloom",
+        Kind::NotNegative,
+        Value::Number(1.0),
+        "brightness of the bloom around lights in the dark, as a multiple of the usual one; 0: none",
+    ),
+    Key::new(
         "annotate",
         Kind::Flag,
         Value::Flag(false),

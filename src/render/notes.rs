@@ -35,12 +35,11 @@ impl Image {
             return;
         }
         let mut pen = Pen { size, line, dark: false, image: self };
-        // A fluid is drawn within its box already.
-        if !picture.frame.water.is_there() {
+        let edges = picture.outline();
+        if !edges.is_empty() {
             pen.over(DVec2::ZERO, DVec2::new(width, height));
             let [ink, _] = pen.ink();
-            let edges = picture.facets().tank_edges(&picture.frame);
-            edges.iter().for_each(|edge| pen.thin(edge.places(), ink));
+            edges.into_iter().for_each(|edge| pen.thin(edge, ink));
         }
         let (low, right) = (height - 0.75 * line, width - 0.75 * line);
         pen.over(DVec2::new(0.0, height - 2.0 * line), DVec2::new(8.0 * line, height));
@@ -48,13 +47,28 @@ impl Image {
         pen.over(DVec2::ZERO, DVec2::splat(6.0 * line));
         pen.axes(picture, DVec2::new(3.0 * line, 3.0 * line));
         pen.over(DVec2::new((1.0 - BAR) * width, height - 2.0 * line), DVec2::new(width, height));
-        pen.bar(picture.frame.scale(), DVec2::new(right, low));
+        pen.bar(picture.bar(), DVec2::new(right, low));
         // A style may have no use for colours.
         if width < SCALE[1] * line || picture.style().unused().contains(&"color") {
             return;
         }
         pen.over(DVec2::new(width - SCALE[0] * line, 0.0), DVec2::new(width, 3.0 * line));
         pen.scale(&picture.color, DVec2::new(right, 0.75 * line));
+    }
+}
+
+impl Picture {
+    /// The outline of a closed box, as it is seen \[pixels\]; of a fluid it is drawn already.
+    pub(crate) fn outline(&self) -> Vec<[DVec2; 2]> {
+        let is_drawn = self.frame.water.is_there();
+        let edges = if is_drawn { Vec::new() } else { self.facets().tank_edges(&self.frame) };
+        edges.iter().map(super::tank::Edge::places).collect()
+    }
+    /// A bar of a round length at the centre: how long it is \[pixels\], and the length in words.
+    pub(crate) fn bar(&self) -> Option<(f64, String)> {
+        let scale = self.frame.scale();
+        let length = round_length(BAR * f64::from(self.frame.width) / scale)?;
+        Some((length * scale, number(length)))
     }
 }
 
@@ -186,13 +200,12 @@ impl Pen<'_> {
         }
     }
     /// A bar of a round length, with its right end at a place, and the length above it.
-    fn bar(&mut self, scale: f64, at: DVec2) {
-        let Some(length) = round_length(BAR * f64::from(self.image.width) / scale) else { return };
+    fn bar(&mut self, bar: Option<(f64, String)>, at: DVec2) {
+        let Some((pixels, text)) = bar else { return };
         let [ink, _] = self.ink();
-        let (from, tick) = (at - DVec2::new(length * scale, 0.0), DVec2::new(0.0, 0.25 * self.line));
+        let (from, tick) = (at - DVec2::new(pixels, 0.0), DVec2::new(0.0, 0.25 * self.line));
         self.stroke(from, at, ink);
         [from, at].into_iter().for_each(|end| self.stroke(end - tick, end, ink));
-        let text = number(length);
         self.text(&text, 0.5 * (from + at) - DVec2::new(0.5 * self.width(&text), 1.4 * self.line));
     }
     /// The scale of values with its title and the numbers at its ends, with its right upper corner at a place. A title that has no room between them stands below.

@@ -136,7 +136,7 @@ impl Picture {
             },
             line: (short / 800.0).max(0.5),
             // A bright sky outshines every bloom.
-            bloom: if bright || wet { 0.0 } else { 1.8 },
+            bloom: if bright || wet { 0.0 } else { 1.8 * settings.number("bloom") },
             reach: super::frame::whole(short / 48.0).max(1),
             tail: settings.number("tail"),
             // White has no hue to say where it is heading.

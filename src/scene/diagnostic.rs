@@ -1,6 +1,7 @@
 //! Errors of a scene as text: file, line, caret and advice.
 
 use std::fmt;
+use std::path::PathBuf;
 
 /// The place where a fault must be corrected.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -50,6 +51,8 @@ pub struct Diagnostics {
     pub list: Vec<Diagnostic>,
     /// The total number.
     pub total: usize,
+    /// The files that the scene names, as far as they were sought, also those that are missing; by absolute paths.
+    pub files: Vec<PathBuf>,
     /// The number of faults to be corrected in the scene.
     pub(super) in_scene: usize,
 }
@@ -59,7 +62,7 @@ impl Diagnostics {
     pub(super) fn alone(scene: &str, message: String, notes: Vec<String>) -> Self {
         let file = Some(scene.to_owned());
         let only = Diagnostic { mended: Mended::InScene, message, file, excerpt: None, notes };
-        Self { scene: scene.to_owned(), list: vec![only], total: 1, in_scene: 1 }
+        Self { scene: scene.to_owned(), list: vec![only], total: 1, files: Vec::new(), in_scene: 1 }
     }
     /// The exit code of the command `motes`: 4 when every fault must be corrected in an input file, otherwise 3.
     #[must_use]

@@ -4,6 +4,7 @@ use std::cell::RefCell;
 use std::fs;
 use std::path::{Component, Path, PathBuf};
 
+use super::Options;
 use super::report::{Fault, Place, nearest, shorten};
 use super::source::{Opened, shorten_path};
 use crate::formats::Input;
@@ -18,11 +19,14 @@ const LONGEST_PLAN: u64 = 1 << 24;
 
 /// The folders in which files are searched.
 pub(super) struct Files {
-    /// The files that were found, by absolute paths.
+    /// The files that were sought and that were found, by absolute paths.
+    sought: RefCell<Vec<PathBuf>>,
     read: RefCell<Vec<PathBuf>>,
     folder: Option<PathBuf>,
     embedded: Vec<(String, Vec<u8>)>,
     allow_outside: bool,
+    /// Files that may be anywhere, by their paths without links.
+    beside: Vec<PathBuf>,
 }
 
 /// A file that was found.
@@ -34,12 +38,14 @@ pub(super) enum Located {
 }
 
 impl Files {
-    pub(super) fn new(opened: &Opened, allow_outside: bool) -> Self {
+    pub(super) fn new(opened: &Opened, options: &Options) -> Self {
         Self {
+            sought: RefCell::default(),
             read: RefCell::default(),
             folder: opened.folder.clone(),
             embedded: opened.embedded.clone(),
-            allow_outside,
+            allow_outside: options.allow_outside,
+            beside: options.beside.iter().filter_map(|file| fs::canonicalize(file).ok()).collect(),
         }
     }
 
@@ -52,10 +58,12 @@ impl Files {
         // A built-in scene with an override is the user's own: it may name files in the current folder.
         let folder = self.folder.as_deref().unwrap_or(Path::new("."));
         let path = folder.join(name);
-        if !self.allow_outside && !is_inside(&path, folder) {
+        let is_beside = || fs::canonicalize(&path).is_ok_and(|file| self.beside.contains(&file));
+        if !self.allow_outside && !is_inside(&path, folder) && !is_beside() {
             return Err(Fault::at(place, format!("`{key}` leads outside of the scene's folder"))
                 .note("help: move the file beside the scene, or use --allow-outside if you trust the scene"));
         }
+        self.sought.borrow_mut().extend(std::path::absolute(&path));
         let meta = fs::metadata(&path).map_err(|why| {
             let absent = why.kind() == std::io::ErrorKind::NotFound;
             let message =
@@ -86,6 +94,10 @@ impl Files {
     /// The files that were found, by absolute paths.
     pub(super) fn found(self) -> Vec<PathBuf> {
         self.read.into_inner()
+    }
+    /// The files that were sought, also those that are missing, by absolute paths.
+    pub(super) fn sought(self) -> Vec<PathBuf> {
+        self.sought.into_inner()
     }
 }
 

@@ -82,6 +82,8 @@ use files::Files;
 use report::{Fault, Place, Report};
 use resolved::Writer;
 pub(crate) use resolved::plain;
+#[cfg(feature = "panel")]
+pub(crate) use resolved::written;
 use walk::Table;
 
 /// A scene, read and checked.
@@ -149,6 +151,8 @@ pub struct Group {
 pub struct Options {
     /// Whether it may name files outside of its own folder.
     pub allow_outside: bool,
+    /// Files that it may name wherever they are.
+    pub beside: Vec<PathBuf>,
     /// The maximum number of particles, as a protection against mistakes that fill the memory.
     pub most_particles: u32,
 }
@@ -156,7 +160,7 @@ pub struct Options {
 impl Default for Options {
     /// No files outside, and up to a hundred million particles (6.4 GB on the host).
     fn default() -> Self {
-        Self { allow_outside: false, most_particles: 100_000_000 }
+        Self { allow_outside: false, beside: Vec::new(), most_particles: 100_000_000 }
     }
 }
 
@@ -204,13 +208,13 @@ impl Scene {
         let mut root = tree::parse(text, &opened.text, &mut report);
         overrides::apply(&mut root, overrides, &mut report);
         let sections = walk::sections(&root, &mut report);
-        let files = Files::new(&opened, options.allow_outside);
+        let files = Files::new(&opened, options);
         // Many particles are not created for a scene that is refused anyway.
         let refused = draft::read(&sections, &files, options.most_particles, &mut report) && report.len() > 0;
         let scene = (!refused).then(|| read(&sections, &files, options, &mut report));
         let mut scene = match (report.finish(), scene) {
             (None, Some(scene)) => scene,
-            (Some(faults), _) => return Err(faults),
+            (Some(faults), _) => return Err(Diagnostics { files: files.sought(), ..faults }),
             (None, None) => return Err(Diagnostics::alone(&opened.file, "it has faults".to_owned(), Vec::new())),
         };
         scene.name = opened.name;

@@ -138,7 +138,7 @@ impl Report {
         let total = faults.len();
         let list: Vec<_> = faults.into_iter().take(KEPT).map(|f| self.diagnostic(f)).collect();
         let scene = self.texts.first().and_then(|t| t.name.clone()).unwrap_or_default();
-        (total > 0).then_some(Diagnostics { scene, list, total, in_scene })
+        (total > 0).then_some(Diagnostics { scene, list, total, files: Vec::new(), in_scene })
     }
     fn diagnostic(&self, fault: Fault) -> Diagnostic {
         let (file, excerpt) = match self.texts.get(fault.place.text) {

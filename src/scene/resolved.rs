@@ -46,11 +46,18 @@ impl Writer {
     pub(super) fn settings(&mut self, keys: &[Key], settings: &Settings) {
         for key in keys {
             if let Some(v) = settings.0.get(key.name) {
-                let whole =
-                    matches!(key.kind, Kind::Count | Kind::Whole | Kind::Species) && matches!(v, Value::Number(_));
-                self.line(key.name, &if whole { settings.whole(key.name).to_string() } else { value(v) });
+                self.line(key.name, &written(key.kind, v));
             }
         }
+    }
+}
+
+/// A value of a kind as TOML.
+pub fn written(kind: Kind, given: &Value) -> String {
+    match given {
+        // Whole numbers below 2^53 have no other digits.
+        Value::Number(x) if kind.is_whole() => format!("{x:.0}"),
+        other => value(other),
     }
 }
 

@@ -60,6 +60,8 @@ pub enum Action {
     Panel,
     /// Show the list of keys, or hide it.
     Help,
+    /// Copy what was changed, for the command.
+    Copy,
     /// Save a picture.
     Take,
     /// Begin a film, or end and save it.

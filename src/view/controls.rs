@@ -7,7 +7,7 @@ use egui::{
 
 use super::action::Action;
 use super::tool::{self, Tool};
-use super::{View, keyboard, legend, sliders};
+use super::{View, keyboard, legend, notes, sliders};
 use crate::kernel::Backend;
 use crate::render;
 use crate::scene::SCENES;
@@ -86,7 +86,7 @@ fn panel<B: Backend>(view: &mut View<B>, ui: &mut Ui) {
     }
     CollapsingHeader::new("Picture").default_open(true).show(ui, |ui| looks(view, ui));
     forces(view, ui);
-    CollapsingHeader::new("Energy").default_open(false).show(ui, |ui| view.energies.show(ui));
+    view.plots.show(ui);
 }
 
 /// Says something; lines that point at places of a text stand below each other.
@@ -114,6 +114,15 @@ fn run<B: Backend>(view: &mut View<B>, ui: &mut Ui) {
         }
         if ui.button("Scene").on_hover_text("back to the start, with the settings of the scene").clicked() {
             view.actions.push(Action::Restore);
+        }
+        // A page has a link for it.
+        if !cfg!(target_arch = "wasm32")
+            && ui
+                .button("Copy")
+                .on_hover_text("what was changed, for the command `motes`, to the clipboard: C")
+                .clicked()
+        {
+            view.actions.push(Action::Copy);
         }
     });
     let mut wanted = view.pace.wanted;
@@ -210,6 +219,16 @@ fn looks<B: Backend>(view: &mut View<B>, ui: &mut Ui) {
     if ui.add(slider).changed() {
         view.actions.push(Action::Picture { key: "exposure", value: Value::Number(exposure) });
     }
+    let mut bloom = view.stage.number("bloom");
+    let slider = Slider::new(&mut bloom, 0.0..=5.0).max_decimals(2).text("bloom");
+    if ui.add(slider).on_hover_text("how bright the bloom around lights is, as a multiple of the usual").changed() {
+        view.actions.push(Action::Picture { key: "bloom", value: Value::Number(bloom) });
+    }
+    let mut notes = view.stage.picture().annotated();
+    let about = "box, axes and a bar of length over the picture, and in those that are saved";
+    if ui.checkbox(&mut notes, "annotate").on_hover_text(about).changed() {
+        view.actions.push(Action::Picture { key: "annotate", value: Value::Flag(notes) });
+    }
     ui.horizontal(|ui| {
         if ui.button("Frame all").on_hover_text("F").clicked() {
             view.actions.push(Action::Frame);
@@ -260,7 +279,13 @@ fn picture<B: Backend>(view: &mut View<B>, ui: &mut Ui) {
         let seen = Rect::from_min_max(pos2(0.5 - 0.5 * part, 0.0), pos2(0.5 + 0.5 * part, 1.0));
         Image::from_texture(SizedTexture::new(id, Vec2::new(width as f32, height as f32))).uv(seen).paint_at(ui, place);
     }
+    if let Some(text) = view.copied.take() {
+        ui.ctx().copy_text(text);
+    }
     legend::show(&view.stage.picture().color, ui, place);
+    if view.stage.picture().annotated() {
+        notes::show(view.stage.picture(), ui, place);
+    }
     mark(view, ui, place);
     drag(view, ui, &response, place);
     if response.double_clicked() {

@@ -2,18 +2,23 @@
 
 mod action;
 mod added;
+mod changes;
 mod chosen;
 mod controls;
-mod energies;
 mod keyboard;
 mod legend;
+mod notes;
 mod orbit;
 mod pace;
+mod plots;
 mod recording;
 mod seldom;
 mod sliders;
 mod stage;
 mod tool;
+
+use std::collections::VecDeque;
+use std::sync::Arc;
 
 use egui::{TextureId, Ui};
 use glam::DVec3;
@@ -26,8 +31,8 @@ use crate::scene::Scene;
 use crate::simulation::{Setup, Simulation};
 use action::Action;
 use chosen::Chosen;
-use energies::Energies;
 use pace::Pace;
+use plots::Plots;
 use recording::Recording;
 use stage::Stage;
 use tool::{Hand, Tool};
@@ -53,7 +58,7 @@ pub struct Taken {
 pub struct View<B: Backend> {
     stage: Stage<B>,
     pace: Pace,
-    energies: Energies,
+    plots: Plots,
     chosen: Option<Chosen>,
     hand: Hand,
     paused: bool,
@@ -69,8 +74,10 @@ pub struct View<B: Backend> {
     message: String,
     /// The fault that has stopped the run.
     fault: Option<String>,
-    taken: Option<Taken>,
+    taken: VecDeque<Taken>,
     recording: Option<Recording>,
+    /// A text for the clipboard.
+    copied: Option<String>,
     /// The scene that the shell is asked to open.
     wanted: Option<String>,
     shown: bool,
@@ -82,11 +89,12 @@ impl<B: Backend> View<B> {
     /// # Errors
     /// When the setup is invalid, a shader does not compile, or the fields do not fit the device.
     pub async fn new(scene: &Scene, setup: Setup, make: Make<B>) -> Result<Self, Error> {
+        let plots = Plots::new(&setup, &scene.measures)?;
         let stage = Stage::new(scene, setup, make).await?;
         Ok(Self {
             pace: Pace::new(stage.dt()),
             stage,
-            energies: Energies::default(),
+            plots,
             chosen: None,
             hand: Hand::default(),
             paused: false,
@@ -97,8 +105,9 @@ impl<B: Backend> View<B> {
             texture: None,
             message: String::new(),
             fault: None,
-            taken: None,
+            taken: VecDeque::new(),
             recording: None,
+            copied: None,
             wanted: None,
             shown: false,
         })
@@ -167,9 +176,14 @@ impl<B: Backend> View<B> {
             self.stage.camera(|_| camera);
         }
     }
-    /// A picture or a film that was asked for, once.
+    /// The next picture or film that was asked for, once.
     pub fn take(&mut self) -> Option<Taken> {
-        self.taken.take()
+        self.taken.pop_front()
+    }
+    /// What was changed by hand in forces, picture and camera, as `--set` and links take it: `force.0.softening=0.1`.
+    #[must_use]
+    pub fn changes(&self) -> Vec<String> {
+        self.stage.changes()
     }
     /// The scene that is to be opened, once.
     pub fn wanted(&mut self) -> Option<String> {
@@ -244,8 +258,10 @@ impl<B: Backend> View<B> {
             return Ok(());
         }
         let ([width, height], rgba) = (self.size(), self.pixels().await?);
+        let mut image = Image { width, height, rgba, outside: 0, broken: 0 };
+        self.stage.annotate(&mut image);
         let Some(recording) = &mut self.recording else { return Ok(()) };
-        let room = recording.add(step, &Image { width, height, rgba, outside: 0, broken: 0 })?;
+        let room = recording.add(step, &image)?;
         self.message = recording.words();
         if !room {
             self.end_recording()?;
@@ -253,13 +269,12 @@ impl<B: Backend> View<B> {
         }
         Ok(())
     }
-    /// The film that is being recorded, when the view ends.
+    /// When the view ends: the film that is being recorded becomes one that [is taken](Self::take).
     ///
     /// # Errors
     /// When the film cannot be made.
-    pub fn end(&mut self) -> Result<Option<Taken>, Error> {
-        self.end_recording()?;
-        Ok(self.take())
+    pub fn end(&mut self) -> Result<(), Error> {
+        self.end_recording()
     }
     /// The film becomes a file.
     fn end_recording(&mut self) -> Result<(), Error> {
@@ -269,7 +284,7 @@ impl<B: Backend> View<B> {
             return Ok(());
         }
         let name = format!("{}_{:06}_film.png", self.stage.name, self.stage.simulation.steps());
-        self.taken = Some(Taken { png: recording.film()?, name });
+        self.taken.push_back(Taken { png: recording.film()?, name });
         Ok(())
     }
     async fn pull(&mut self, across: f64, up: f64) -> Result<(), Error> {
@@ -298,14 +313,14 @@ impl<B: Backend> View<B> {
         let begun = Instant::now();
         self.stage.advance(steps).await?;
         self.pace.stepped(steps, begun.elapsed());
-        if self.energies.is_due() {
-            let snapshot = self.stage.simulation.snapshot().await?;
-            self.energies.take(&snapshot)?;
+        if self.plots.is_due() {
+            let snapshot = Arc::new(self.stage.simulation.snapshot().await?);
+            self.plots.take(&snapshot);
             // A film has one scale.
             if self.recording.is_none() {
                 self.stage.follow(&snapshot).await?;
             }
-            self.energies.done();
+            self.plots.done();
         }
         Ok(())
     }
@@ -380,9 +395,10 @@ impl<B: Backend> View<B> {
             }
             Action::Panel => self.panel = !self.panel,
             Action::Help => self.help = !self.help,
+            Action::Copy => self.copy(),
             Action::Take => {
                 let (image, name) = self.stage.take().await?;
-                self.taken = Some(Taken { png: image.png()?, name });
+                self.taken.push_back(Taken { png: image.png()?, name });
             }
             Action::Record if self.recording.is_some() => self.end_recording()?,
             Action::Record => self.recording = Some(Recording::new(self.size)),
@@ -390,8 +406,20 @@ impl<B: Backend> View<B> {
         }
         Ok(())
     }
+    /// Copies what was changed, as arguments of the command.
+    fn copy(&mut self) {
+        let changes = self.stage.changes();
+        let values: Vec<String> = changes.iter().map(|value| format!(" --set '{value}'")).collect();
+        let what = match changes.len() {
+            0 => "nothing was changed: the command".to_owned(),
+            1 => "the command with the value that was changed".to_owned(),
+            many => format!("the command with the {many} values that were changed"),
+        };
+        self.copied = Some(format!("motes view {}{}", self.stage.name, values.concat()));
+        self.say(format!("{what} is on the clipboard"));
+    }
     fn restarted(&mut self) {
-        self.energies = Energies::default();
+        self.plots.restarted(&self.stage.start);
         self.chosen.iter_mut().for_each(Chosen::restarted);
         self.message.clear();
         if self.fault.take().is_some() {

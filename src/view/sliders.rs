@@ -5,7 +5,7 @@ use glam::DVec3;
 
 use super::action::Action;
 use crate::component::Setting;
-use crate::settings::{Kind, Value, plain};
+use crate::settings::{Kind, Pair, Value, plain};
 
 /// So many times the value of the scene a slider reaches, up and down.
 const REACH: f64 = 100.0;
@@ -104,11 +104,56 @@ fn control(ui: &mut Ui, now: &Setting<'_>, scene: &Value, label: &egui::Response
             }
             changed.then_some(Value::Vector(DVec3::from_array(parts)))
         }
+        (Kind::Species, Value::Text(_), _) => {
+            // All of them, or one.
+            ui.label("all");
+            ui.small_button("one").labelled_by(label.id).clicked().then_some(Value::Number(0.0))
+        }
+        (Kind::Pairs(_), Value::Pairs(rows), _) => pairs(ui, rows, label),
+        (_, Value::Text(text), _) => line(ui, text, label),
         (_, value, _) => {
             ui.weak(words(value));
             None
         }
     }
+}
+
+/// A text, which is set when it is finished.
+fn line(ui: &mut Ui, now: &str, label: &egui::Response) -> Option<Value> {
+    let id = label.id.with("text");
+    let mut text = ui.data_mut(|data| data.get_temp::<String>(id)).unwrap_or_else(|| now.to_owned());
+    let response = ui.add(egui::TextEdit::singleline(&mut text).desired_width(140.0)).labelled_by(label.id);
+    if response.lost_focus() {
+        ui.data_mut(|data| data.remove::<String>(id));
+        return (text != now).then(|| Value::Text(text.into()));
+    }
+    if response.has_focus() {
+        ui.data_mut(|data| data.insert_temp(id, text));
+    }
+    None
+}
+
+/// The coefficients of each pair of species.
+fn pairs(ui: &mut Ui, rows: &[Pair], label: &egui::Response) -> Option<Value> {
+    let mut rows = rows.to_vec();
+    let mut changed = false;
+    egui::Grid::new((label.id, "pairs")).show(ui, |ui| {
+        ui.label("");
+        for (name, _) in rows.first().map_or(&[][..], |row| &row.values) {
+            ui.small(name);
+        }
+        ui.end_row();
+        for row in &mut rows {
+            let [a, b] = row.species;
+            ui.label(format!("{a}, {b}"));
+            for (_, x) in &mut row.values {
+                let speed = 0.005 * if *x == 0.0 { 1.0 } else { x.abs() };
+                changed |= ui.add(DragValue::new(x).speed(speed).max_decimals(6)).labelled_by(label.id).changed();
+            }
+            ui.end_row();
+        }
+    });
+    changed.then_some(Value::Pairs(rows))
 }
 
 #[cfg(test)]

@@ -7,10 +7,10 @@ use super::added::Added;
 use crate::component::Component;
 use crate::error::Error;
 use crate::kernel::{Array, Backend, Column, Kind, POSITION, Shape};
-use crate::render::{Camera, Color, Image, Live, PROJECTED, Picture, Trail};
+use crate::render::{Camera, Color, Image, KEYS, Live, PROJECTED, Picture, Trail};
 use crate::run::Pictures;
 use crate::scene::Scene;
-use crate::settings::Value;
+use crate::settings::{Settings, Value};
 use crate::simulation::{Setup, Simulation};
 use crate::state::State;
 
@@ -36,6 +36,8 @@ pub struct Stage<B: Backend> {
     pub start: Setup,
     make: Make<B>,
     pub(super) pictures: Pictures,
+    /// The picture of the scene.
+    pub(super) looks: Settings,
     live: Live,
     /// The state by which the picture was framed.
     framed: State,
@@ -67,6 +69,7 @@ impl<B: Backend> Stage<B> {
             start,
             make,
             pictures,
+            looks: scene.picture.clone(),
             live,
             framed,
             moved: false,
@@ -182,11 +185,24 @@ impl<B: Backend> Stage<B> {
     }
     /// Changes a key of the picture.
     pub async fn look(&mut self, key: &'static str, value: Value) -> Result<(), Error> {
-        let old = self.pictures.set(key, value);
+        // A word may change the defaults of other keys.
+        let looks = self.pictures.looks();
+        let mut all = vec![(key, value)];
+        if let (Some(of), Value::Text(word)) = (KEYS.iter().find(|of| of.name == key), &all[0].1) {
+            let by_default = |name: &str| KEYS.iter().find(|of| of.name == name).and_then(|of| of.default.clone());
+            let before = of.preset(looks.text(key)).iter().filter(|(name, value)| looks.0.get(name) == Some(value));
+            let again = before.filter_map(|(name, _)| Some((*name, by_default(name)?)));
+            let under = of.preset(word).iter().map(|(name, value)| (*name, value.clone()));
+            let others: Vec<_> = again.chain(under).collect();
+            all.extend(others);
+        }
+        let old: Vec<_> = all.into_iter().map(|(key, value)| (key, self.pictures.set(key, value))).collect();
         let kept = Kept { scale: true, camera: true };
         let composed = self.compose_anew(kept).await;
-        if let (Err(_), Some(old)) = (&composed, old) {
-            self.pictures.set(key, old);
+        if composed.is_err() {
+            for (key, value) in old.into_iter().rev() {
+                value.and_then(|value| self.pictures.set(key, value));
+            }
             self.compose(kept)?;
         }
         composed
@@ -259,13 +275,17 @@ impl<B: Backend> Stage<B> {
         self.time = self.start.state.time;
         self.compose_anew(Kept::default()).await
     }
+    /// Adds notes to a picture that is saved, where they are wanted.
+    pub fn annotate(&self, image: &mut Image) {
+        if self.live.picture.annotated() {
+            image.annotate(&self.live.picture, self.time);
+        }
+    }
     /// A picture of the present state, and a name for its file.
     pub async fn take(&mut self) -> Result<(Image, String), Error> {
         self.live.picture.frame.fine = self.fine;
         let mut image = self.simulation.draw(&self.live.picture).await?;
-        if self.live.picture.annotated() {
-            image.annotate(&self.live.picture, self.time);
-        }
+        self.annotate(&mut image);
         // Drawing it has taken the fields away.
         self.live.change(self.live.picture.clone());
         Ok((image, format!("{}_{:06}.png", self.name, self.simulation.steps())))

@@ -2,9 +2,10 @@
 // `motes`, which runs the same scenes, and a folder for pictures.
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
-import { mkdtempSync, readFileSync, writeFileSync } from "node:fs";
+import { mkdtempSync, readFileSync, readdirSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
+import { gzipSync } from "node:zlib";
 import { chromium } from "playwright-core";
 import { open, serve } from "./serve.mjs";
 
@@ -250,7 +251,59 @@ const tests = {
     assert.match(await page.textContent(".card"), /kepler, as you edited it last\s*Five stones/);
     await page.click(".card");
     await until(page, () => document.getElementById("title").textContent === "kepler: Five stones.");
+    // The way back leads to this one, whatever is edited later; also to a text that is too long for a link.
+    const noise = Array.from({ length: 4000 }, (_, i) => Math.imul(i, 2654435761) >>> 0).join(" ");
+    const long = `${edited.replace("Four", "Six")}# ${noise}\n`;
+    await page.fill("#text", long);
+    await page.press("#text", "Control+Enter");
+    await until(page, () => document.getElementById("title").textContent === "kepler: Six stones.");
+    await page.evaluate(() => { location.hash = "#scene=throw&paused=1"; });
+    await runs(page, "throw");
+    await page.goBack();
+    await until(page, () => document.getElementById("title").textContent === "kepler: Six stones.");
+    assert.equal(await page.inputValue("#text"), long);
+    await page.click("#link");
+    assert.match(await page.textContent("#status"), /too long for a link/);
+    await page.goBack();
+    await until(page, () => document.getElementById("title").textContent === "kepler: Five stones.");
     await page.close();
+  },
+  async "a link carries what was changed by hand"() {
+    const page = await visit("scene=plummer&scale=0.01&paused=1");
+    await runs(page, "plummer");
+    await page.waitForTimeout(1000);
+    assert.deepEqual(await page.evaluate(() => window.motes.changes()), []);
+    await page.mouse.move(200, 300);
+    await page.mouse.down();
+    await page.mouse.move(260, 320, { steps: 4 });
+    await page.mouse.up();
+    await until(page, async () => (await window.motes.changes()).length > 0);
+    const changes = await page.evaluate(() => window.motes.changes());
+    assert.ok(changes.some((value) => value.startsWith("picture.eye=[")), `${changes}`);
+    await page.click("#link");
+    const link = await page.evaluate(() => location.hash);
+    assert.match(link, /picture\.extent=/);
+    const other = await visit(`${link.slice(1)}&paused=1`);
+    await runs(other, "plummer");
+    assert.equal(await other.textContent("#faults"), "");
+    await other.waitForTimeout(1000);
+    const [one, two] = [await lit(page, "turned"), await lit(other, "linked")];
+    assert.ok(Math.abs(one.sum - two.sum) < 0.02 * one.sum, `the same view: ${one.sum} and ${two.sum}`);
+    await page.close();
+    await other.close();
+  },
+  async "links that are damaged are refused in words"() {
+    const page = await visit("text=abc&paused=1");
+    await page.waitForSelector("#faults:not([hidden])");
+    assert.match(await page.textContent("#faults"), /not all of it was copied/);
+    assert.ok(!(await page.textContent("#status")).includes("goes on"), "nothing ran before");
+    await page.close();
+  },
+  async "the program is small"() {
+    const files = readdirSync(folder).filter((name) => /\.(wasm|js|css|html)$/.test(name));
+    const bytes = files.reduce((sum, name) => sum + gzipSync(readFileSync(join(folder, name)), { level: 9 }).length, 0);
+    console.log(`  ${(bytes / 1e6).toFixed(2)} MB by gzip`);
+    assert.ok(files.length >= 5 && bytes < 5e6, `${files}: ${bytes} bytes`);
   },
   async "keys are those of the viewer, and of the browser"() {
     const page = await visit("scene=galaxy&scale=0.02");

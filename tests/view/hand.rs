@@ -72,7 +72,17 @@ impl Hand {
         self.view().take()
     }
     pub fn end(&mut self) -> Option<motes::view::Taken> {
-        self.view().end().expect("a film")
+        self.view().end().expect("a film");
+        self.taken()
+    }
+    /// What was changed by hand, as `--set` takes it.
+    pub fn changes(&self) -> Vec<String> {
+        self.harness.state().changes()
+    }
+    /// Whether the panel's font has all letters of a text.
+    pub fn can_write(&self, text: &str) -> bool {
+        let font = egui::FontId::proportional(12.0);
+        self.harness.ctx.fonts_mut(|fonts| text.chars().all(|c| c.is_whitespace() || fonts.has_glyph(&font, c)))
     }
     pub fn message(&self) -> &str {
         self.harness.state().message()
@@ -84,6 +94,19 @@ impl Hand {
     pub fn key(&mut self, key: Key, modifiers: Modifiers) {
         for pressed in [true, false] {
             self.frame(vec![Event::Key { key, physical_key: None, pressed, repeat: false, modifiers }]);
+        }
+    }
+    /// Presses keys in one frame, and releases them in the next.
+    pub fn keys(&mut self, keys: &[Key]) {
+        for pressed in [true, false] {
+            let one = |key: &Key| Event::Key {
+                key: *key,
+                physical_key: None,
+                pressed,
+                repeat: false,
+                modifiers: Modifiers::NONE,
+            };
+            self.frame(keys.iter().map(one).collect());
         }
     }
     fn button(&mut self, pos: Pos2, button: PointerButton, pressed: bool) {

@@ -18,7 +18,7 @@ impl Files {
         let written = files.iter().map(|file| (file.clone(), modified(file).filter(|time| *time < begun))).collect();
         Self { written, looked: Instant::now() }
     }
-    /// Whether one of them was written since it was last seen, and is at rest.
+    /// Whether one of them was written since it was read, and is at rest.
     pub fn changed(&mut self) -> bool {
         if self.looked.elapsed() < LOOK {
             return false;
@@ -29,12 +29,6 @@ impl Files {
             let now = modified(file);
             now != *time && now.is_some_and(resting)
         })
-    }
-    /// Takes them as they are.
-    pub fn seen(&mut self) {
-        for (file, time) in &mut self.written {
-            *time = modified(file);
-        }
     }
 }
 
@@ -59,14 +53,14 @@ mod tests {
             std::fs::write(file, "one").expect("a file");
         }
         wait();
-        let mut files = Files::of(&[scene, law.clone()], SystemTime::now());
+        let mut files = Files::of(&[scene.clone(), law.clone()], SystemTime::now());
         wait();
         assert!(!files.changed(), "nothing was saved");
         std::fs::write(&law, "two").expect("a file");
         assert!(!files.changed(), "too soon after the last look");
         wait();
         assert!(files.changed(), "the law was saved");
-        files.seen();
+        let mut files = Files::of(&[scene, law.clone()], SystemTime::now());
         wait();
         assert!(!files.changed(), "it was seen");
         // Some editors take the old file away before they write the new one.

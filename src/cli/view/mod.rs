@@ -7,8 +7,13 @@ mod sheet;
 #[cfg(feature = "view")]
 mod window;
 
+#[cfg(feature = "view")]
+use std::path::PathBuf;
+
 use super::args::ViewArgs;
 use super::failure::Failure;
+#[cfg(feature = "view")]
+use super::load::Loaded;
 
 /// Opens a window in which a scene runs, or draws its frames without one.
 #[cfg(feature = "view")]
@@ -41,37 +46,32 @@ struct Origin {
     beside: Vec<String>,
 }
 
-/// Loads a scene with the arguments.
+/// Loads a scene with the arguments. Adds the files on which this depends, also where there are faults.
 #[cfg(feature = "view")]
-async fn load(args: &ViewArgs, origin: &Origin) -> Result<super::load::Loaded, Failure> {
-    use super::args::{BackendChoice, DeviceArgs, SceneArgs};
-    use motes::scene::{Beside, Source};
+async fn load(args: &ViewArgs, origin: &Origin, files: &mut Vec<PathBuf>) -> Result<Loaded, Failure> {
+    use motes::scene::{Beside, Options, Source};
+    let beside: Vec<PathBuf> = origin.beside.iter().map(PathBuf::from).collect();
+    files.extend_from_slice(&beside);
+    if let Source::File(path) = &origin.source {
+        files.extend(std::path::absolute(path));
+    }
     let replaced = origin.beside.iter().any(|file| Beside::of(file) == Some(Beside::Particles));
     let values = args.overrides.iter().filter(|_| origin.own);
-    let scene = SceneArgs {
-        scene: args.scene.clone(),
-        steps: None,
-        until: None,
-        // Sizes and values of the scene's own particles are none of others.
-        overrides: values
-            .filter(|value| !(replaced && value.trim_start().starts_with("particles.")))
-            .cloned()
-            .collect(),
-        scale: args.scale.filter(|_| origin.own && !replaced),
-        // What was put beside it may be anywhere.
-        allow_outside: args.allow_outside || !origin.beside.is_empty(),
-        auto_substeps: false,
-        device: DeviceArgs { backend: BackendChoice::Gpu, adapter: args.adapter.clone() },
-    };
+    // Sizes and values of the scene's own particles are none of others.
+    let values = values.filter(|value| !(replaced && value.trim_start().starts_with("particles.")));
+    let scale = args.scale.filter(|_| origin.own && !replaced);
     let mut source = origin.source.clone();
     for file in &origin.beside {
         source = source.beside(file)?;
     }
-    let mut loaded = super::load::load_from(&source, &scene, &[]).await?;
-    if let (Source::File(path), false) = (&origin.source, origin.beside.is_empty()) {
-        loaded.scene.files.push(path.clone());
+    let options = Options { allow_outside: args.allow_outside, beside, ..Options::default() };
+    let scene = super::engine::load_scaled(&source, values.cloned().collect(), scale, &options);
+    match &scene {
+        Ok(scene) => files.extend_from_slice(&scene.files),
+        Err(Failure::Scene(faults)) => files.extend_from_slice(&faults.files),
+        Err(_) => (),
     }
-    Ok(loaded)
+    super::load::examined(scene?).await
 }
 
 #[cfg(feature = "view")]

@@ -14,7 +14,7 @@ use super::super::failure::Failure;
 
 /// Draws the frames, a step in each, and saves the last one.
 pub async fn draw(args: &ViewArgs, file: &Path) -> Result<(), Failure> {
-    let loaded = super::load(args, &super::Origin::find(args, &args.scene)?).await?;
+    let loaded = super::load(args, &super::Origin::find(args, &args.scene)?, &mut Vec::new()).await?;
     let found = engine::open(gpu::adapters(&gpu::instance()).await, args.adapter.as_deref()).await?;
     let (device, queue) = (found.device.clone(), found.queue.clone());
     let make = Box::new(move |setup: &_| Simulation::new(&device, &queue, setup));

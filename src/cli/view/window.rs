@@ -77,8 +77,8 @@ impl ApplicationHandler for App {
         }
         let done = match event {
             WindowEvent::CloseRequested => {
-                let film = shell.view.end().and_then(|film| film.as_ref().map(save).transpose());
-                return self.end(events, film.map(|_| ()).map_err(Failure::from));
+                let saved = shell.close();
+                return self.end(events, saved);
             }
             WindowEvent::Resized(size) => shell.surface.resize(size.into()).map_err(Failure::from),
             WindowEvent::DroppedFile(path) => {
@@ -90,7 +90,9 @@ impl ApplicationHandler for App {
         };
         let enough = self.args.frames.is_some_and(|frames| shell.frames >= frames);
         if done.is_err() || enough {
-            return self.end(events, done);
+            // A film is not lost with the device.
+            let saved = shell.close();
+            return self.end(events, done.and(saved));
         }
         events.set_control_flow(ControlFlow::WaitUntil(Instant::now() + LOOK));
     }
@@ -106,6 +108,8 @@ struct Shell {
     view: View<Gpu>,
     files: Files,
     origin: Origin,
+    /// What was to be opened last and has faults: it is tried again when its files change.
+    faulty: Option<Origin>,
     frames: u64,
 }
 
@@ -113,7 +117,8 @@ impl Shell {
     fn open(events: &ActiveEventLoop, args: &ViewArgs) -> Result<Self, Failure> {
         let begun = SystemTime::now();
         let origin = Origin::find(args, &args.scene)?;
-        let loaded = block_on(super::load(args, &origin))?;
+        let mut files = Vec::new();
+        let loaded = block_on(super::load(args, &origin, &mut files))?;
         let [width, height] = args.size;
         let attributes = Window::default_attributes()
             .with_title(format!("motes: {}", loaded.scene.name))
@@ -123,10 +128,10 @@ impl Shell {
         let (surface, found) = block_on(Surface::open(window.clone(), window.inner_size().into(), &choice))?;
         let context = Context::default();
         let input = egui_winit::State::new(context.clone(), ViewportId::ROOT, &window, None, window.theme(), None);
-        let files = Files::of(&loaded.scene.files, begun);
+        let files = Files::of(&files, begun);
         let view = block_on(View::new(&loaded.scene, loaded.setup, make(&found)))?;
         window.request_redraw();
-        Ok(Self { window, surface, found, context, input, view, files, origin, frames: 0 })
+        Ok(Self { window, surface, found, context, input, view, files, origin, faulty: None, frames: 0 })
     }
     /// Opens a scene that was dropped on the window, or the present one with another file.
     fn drop(&mut self, args: &ViewArgs, path: &Path) {
@@ -138,46 +143,56 @@ impl Shell {
     /// Opens another scene. Where it has faults, the present one goes on, and they are said.
     fn open_scene(&mut self, args: &ViewArgs, origin: Result<Origin, Failure>) {
         let begun = SystemTime::now();
+        let (mut files, mut tried) = (Vec::new(), None);
         let opened = block_on(async {
-            let origin = origin?;
-            let loaded = super::load(args, &origin).await?;
-            let (files, title) = (loaded.scene.files.clone(), loaded.scene.name.clone());
+            let origin = tried.insert(origin?);
+            let loaded = super::load(args, origin, &mut files).await?;
+            let title = loaded.scene.name.clone();
             let mut view = View::new(&loaded.scene, loaded.setup, make(&self.found)).await?;
             if origin.is_of(&self.origin) {
                 view.follow(&self.view);
             }
-            Ok::<_, Failure>((view, files, title, origin))
+            Ok::<_, Failure>((view, title))
         });
+        if let Some(origin) = tried {
+            self.files = Files::of(&files, begun);
+            self.faulty = Some(origin);
+        }
         match opened {
-            Ok((view, files, title, origin)) => {
-                let film = std::mem::replace(&mut self.view, view).end();
-                self.keep(film);
-                self.files = Files::of(&files, begun);
-                self.origin = origin;
+            Ok((view, title)) => {
+                let mut before = std::mem::replace(&mut self.view, view);
+                let ended = before.end();
+                self.saved(ended.and_then(|()| save_all(&mut before)));
+                self.origin = self.faulty.take().unwrap_or_else(|| self.origin.clone());
                 self.window.set_title(&format!("motes: {title}"));
             }
-            Err(failure) => {
-                // It is tried again when its files change.
-                self.files.seen();
-                self.view.say(failure.words());
-            }
+            Err(failure) => self.view.say(failure.words()),
         }
         self.window.request_redraw();
     }
-    /// Saves what was taken, and says where.
-    fn keep(&mut self, taken: Result<Option<Taken>, Error>) {
-        let saved = taken.and_then(|taken| taken.as_ref().map(save).transpose());
-        match saved {
-            Ok(None) => (),
-            Ok(Some(file)) => self.view.say(format!("saved {}", file.display())),
+    /// Says which files were saved, or why not.
+    fn saved(&mut self, files: Result<Vec<PathBuf>, Error>) {
+        match files {
+            Ok(files) if files.is_empty() => (),
+            Ok(files) => {
+                let names: Vec<String> = files.iter().map(|file| file.display().to_string()).collect();
+                self.view.say(format!("saved {}", names.join(", ")));
+            }
             Err(why) => self.view.say(why.to_string()),
         }
+    }
+    /// Saves what was taken when it ends.
+    fn close(&mut self) -> Result<(), Failure> {
+        let ended = self.view.end();
+        let saved = save_all(&mut self.view);
+        saved.and(ended).map_err(Failure::from)
     }
     /// One frame: input, controls, steps, picture.
     fn frame(&mut self, args: &ViewArgs) -> Result<(), Failure> {
         self.found.faults.check()?;
         if self.files.changed() {
-            self.open_scene(args, Ok(self.origin.clone()));
+            let again = self.faulty.as_ref().unwrap_or(&self.origin).clone();
+            self.open_scene(args, Ok(again));
         }
         let input = self.input.take_egui_input(&self.window);
         let mut output = self.context.run_ui(input, |ui| self.view.controls(ui));
@@ -185,8 +200,8 @@ impl Shell {
         let soon = output.viewport_output.values().any(|viewport| viewport.repaint_delay < LOOK);
         let controls = Controls::of(&self.context, output);
         block_on(self.view.advance())?;
-        let taken = self.view.take();
-        self.keep(Ok(taken));
+        let files = save_all(&mut self.view);
+        self.saved(files);
         if let Some(name) = self.view.wanted() {
             self.open_scene(args, Origin::find(args, &name));
             block_on(self.view.advance())?;
@@ -209,6 +224,11 @@ impl Shell {
 fn make(found: &Found) -> motes::view::Make<Gpu> {
     let (device, queue) = (found.device.clone(), found.queue.clone());
     Box::new(move |setup| Simulation::new(&device, &queue, setup))
+}
+
+/// Saves all that was taken.
+fn save_all(view: &mut View<Gpu>) -> Result<Vec<PathBuf>, Error> {
+    std::iter::from_fn(|| view.take()).map(|taken| save(&taken)).collect()
 }
 
 /// Saves a picture in the present folder, beside those that are there.
