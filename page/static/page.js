@@ -52,6 +52,12 @@ const shown = (text, failed = false) => {
   if (at("status").textContent !== text) at("status").textContent = text;
   at("status").classList.toggle("failed", failed);
 };
+/** Says something for long enough to be read, before the state of the run is shown again. */
+let until = 0;
+const announce = (text, failed = false) => {
+  shown(text, failed);
+  until = Date.now() + 4000;
+};
 
 /** What was edited last, so that it is not lost with the page. */
 const DRAFT = "motes.draft";
@@ -205,13 +211,13 @@ const address = async ({ name, text, files, overrides, scale, own }) => {
   return `${location.href.split("#")[0]}#${link}`;
 };
 at("link").onclick = async () => {
-  // What was changed by hand since then belongs to it.
+  if ([...held].some((name) => open.text.includes(name))) return announce("a link does not carry files of particles: save the scene, and keep them beside it", true);
+  // What was changed by hand since it was opened belongs to it.
   const changes = await viewer?.changes() ?? [];
   const url = await address({ ...open, overrides: [...open.overrides, ...changes] });
-  if (!url) return shown("this scene is too long for a link: save it as a file", true);
-  if ([...held].some((name) => open.text.includes(name))) return shown("a link does not carry files of particles: save the scene, and keep them beside it", true);
+  if (!url) return announce("this scene is too long for a link: save it as a file", true);
   history.replaceState(null, "", url);
-  await navigator.clipboard?.writeText(url).then(() => shown("the link is on the clipboard"), () => shown("the link stands in the address"));
+  await navigator.clipboard?.writeText(url).then(() => announce("the link is on the clipboard"), () => announce("the link stands in the address"));
 };
 
 /** The gallery. */
@@ -342,7 +348,7 @@ const watch = async () => {
     const status = await viewer.status();
     if (status.failed) {
       shown(`stopped: ${status.failed}. Load the page again to go on.`, true);
-    } else if (status.scene && at("faults").hidden | at("faults").classList.contains("remarks")) {
+    } else if (status.scene && Date.now() > until && at("faults").hidden | at("faults").classList.contains("remarks")) {
       shown(`${status.scene} · step ${status.steps}${status.message ? ` · ${status.message}` : ""}`);
     }
     if (status.picture) download(status.picture, [status.png], "image/png");

@@ -129,8 +129,9 @@ impl Pen<'_> {
         let layers = round.map(|shift| (shade, SHADE, shift)).into_iter().chain([(ink, 1.0, DVec2::ZERO)]);
         for (color, part, shift) in layers {
             for (n, letter) in text.chars().enumerate() {
-                // The font has the letters of all notes.
-                let Some(raster) = get_raster(letter, FontWeight::Regular, self.size) else { continue };
+                // A unit of a user's column may have letters that the font lacks.
+                let of = |letter| get_raster(letter, FontWeight::Regular, self.size);
+                let Some(raster) = of(letter).or_else(|| of('?')) else { continue };
                 let from = at.round() + DVec2::new(n as f64 * step, 0.0) + shift;
                 for (y, row) in raster.rows().enumerate() {
                     for (x, value) in row.iter().enumerate() {
@@ -325,6 +326,21 @@ mod tests {
     }
 
     /// A fifth of 640 pixels is 128, two lengths of 64: the bar has them between its ticks.
+    #[test]
+    fn units_of_columns_have_all_their_letters() {
+        let units = crate::forces::entries().flat_map(|entry| (entry.build)(&Settings::defaults(entry.keys)).columns());
+        let lacks: Vec<_> = units
+            .filter(|column| {
+                column.unit.chars().any(|c| get_raster(c, FontWeight::Regular, RasterHeight::Size16).is_none())
+            })
+            .map(|column| column.unit.to_string())
+            .collect();
+        assert_eq!(lacks, [""; 0]);
+        let (_, mut image) = blank("group", DVec3::Z);
+        let before = image.rgba.clone();
+        Pen { size: RasterHeight::Size16, line: 16.0, dark: false, image: &mut image }.text("ξ", DVec2::splat(20.0));
+        assert_ne!(image.rgba, before, "a letter that the font lacks leaves no gap");
+    }
     #[test]
     fn the_bar_is_as_long_as_it_says() {
         let (picture, mut image) = blank("group", DVec3::Z);

@@ -22,13 +22,18 @@ pub struct Continuity {
 pub fn columns(rest: f64) -> Vec<Column> {
     vec![
         density().carried("density_rate").starting([rest, 0.0, 0.0, 0.0]),
-        Column::new("density_rate", Kind::Scalar, "mass / (length³ time)", "how fast that changes").derived(),
+        Column::new("density_rate", Kind::Scalar, "mass / (length^D time)", "how fast that changes").derived(),
     ]
 }
 
 /// The density: computed anew in each evaluation, unless integrators advance it.
 fn density() -> Column {
-    Column::new("density", Kind::Scalar, "mass / length³", "the density of the fluid; undefined for walls")
+    Column::new(
+        "density",
+        Kind::Scalar,
+        "mass / length^D",
+        "the density of the fluid in D dimensions; undefined for walls",
+    )
 }
 
 /// The columns of a density that is a sum over neighbours.

@@ -60,6 +60,8 @@ pub enum Action {
     Panel,
     /// Show the list of keys, or hide it.
     Help,
+    /// Show the scenes, or hide them.
+    Scenes,
     /// Copy what was changed, for the command.
     Copy,
     /// Save a picture.

@@ -7,7 +7,7 @@ use egui::{
 
 use super::action::Action;
 use super::tool::{self, Tool};
-use super::{View, keyboard, legend, notes, sliders};
+use super::{View, gallery, keyboard, legend, notes, sliders};
 use crate::kernel::Backend;
 use crate::render;
 use crate::scene::SCENES;
@@ -39,6 +39,9 @@ pub fn show<B: Backend>(view: &mut View<B>, ui: &mut Ui) {
         egui::Window::new("Keys").open(&mut open).resizable(false).show(ui.ctx(), keys);
         view.help = open;
     }
+    if let (Some(contact), true) = (view.contact, view.scenes) {
+        gallery::show(contact, &view.stage.name, ui, &mut view.scenes, &mut view.actions);
+    }
 }
 
 fn keys(ui: &mut Ui) {
@@ -54,16 +57,22 @@ fn keys(ui: &mut Ui) {
 fn panel<B: Backend>(view: &mut View<B>, ui: &mut Ui) {
     let open = view.stage.name.clone();
     ui.horizontal(|ui| {
-        let list =
-            ComboBox::from_id_salt("scene").selected_text(egui::RichText::new(&open).heading()).show_ui(ui, |ui| {
+        let name = egui::RichText::new(&open).heading();
+        if view.contact.is_some() {
+            if ui.button(name).on_hover_text("the scenes: L").clicked() {
+                view.actions.push(Action::Scenes);
+            }
+        } else {
+            let list = ComboBox::from_id_salt("scene").selected_text(name).show_ui(ui, |ui| {
                 for scene in SCENES {
                     if ui.selectable_label(scene.name == open, scene.name).on_hover_text(scene.about()).clicked() {
                         view.actions.push(Action::Open(scene.name.to_owned()));
                     }
                 }
             });
-        let info = || egui::WidgetInfo::labeled(egui::Role::ComboBox, true, "scene");
-        list.response.widget_info(info);
+            let info = || egui::WidgetInfo::labeled(egui::Role::ComboBox, true, "scene");
+            list.response.widget_info(info);
+        }
         if ui.button("?").on_hover_text("the keys").clicked() {
             view.actions.push(Action::Help);
         }

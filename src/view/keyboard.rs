@@ -20,6 +20,7 @@ pub const KEYS: &[(&str, &str)] = &[
     ("W A S D", "fly ahead, to the left, back, to the right; a drag then turns about the eye"),
     ("E Q", "fly up, down"),
     ("G", "the next use of a drag: look, pull, push, place a ball"),
+    ("L", "the scenes"),
     ("C", "copy the command with what was changed"),
     ("P", "save a picture"),
     ("V", "record a film, and save it"),
@@ -104,6 +105,7 @@ pub fn read(context: &Context, tool: Tool, actions: &mut Vec<Action>) {
         on(Key::Minus, Action::Zoom { factor: 1.0 / CLOSER, across: 0.0, up: 0.0 });
         if !cfg!(target_arch = "wasm32") {
             on(Key::C, Action::Copy);
+            on(Key::L, Action::Scenes);
         }
         on(Key::P, Action::Take);
         on(Key::V, Action::Record);

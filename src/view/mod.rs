@@ -5,6 +5,7 @@ mod added;
 mod changes;
 mod chosen;
 mod controls;
+pub mod gallery;
 mod keyboard;
 mod legend;
 mod notes;
@@ -65,6 +66,9 @@ pub struct View<B: Backend> {
     /// Whether the panel is shown, and the list of keys.
     panel: bool,
     help: bool,
+    /// The texture of the contact sheet, if the shell has one, and whether the scenes are shown.
+    contact: Option<TextureId>,
+    scenes: bool,
     /// What was asked for since the last frame.
     actions: Vec<Action>,
     /// The pixels of the picture's place, and its texture.
@@ -100,6 +104,8 @@ impl<B: Backend> View<B> {
             paused: false,
             panel: true,
             help: false,
+            contact: None,
+            scenes: false,
             actions: Vec::new(),
             size: [640, 384],
             texture: None,
@@ -130,6 +136,10 @@ impl<B: Backend> View<B> {
         let area = self.size().map(|side| side as usize).iter().product();
         let words = self.stage.simulation.backend().read(PICTURE.name, &Array::Uint(Vec::new()), area).await?;
         Ok(u32::view(&words).into_iter().flatten().flat_map(|word| word.to_le_bytes()).collect())
+    }
+    /// Shows pictures of the scenes that come with motes, from a [contact sheet](gallery).
+    pub fn contact(&mut self, sheet: TextureId) {
+        self.contact = Some(sheet);
     }
     /// Shows the last picture under this name from now on.
     pub fn show(&mut self, texture: TextureId) {
@@ -395,6 +405,7 @@ impl<B: Backend> View<B> {
             }
             Action::Panel => self.panel = !self.panel,
             Action::Help => self.help = !self.help,
+            Action::Scenes => self.scenes = !self.scenes,
             Action::Copy => self.copy(),
             Action::Take => {
                 let (image, name) = self.stage.take().await?;

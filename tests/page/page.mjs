@@ -50,6 +50,11 @@ const runs = (page, scene) => until(page, async (scene) => {
   if (status?.failed) throw new Error(status.failed);
   return status?.scene === scene;
 }, scene);
+/** Copies the link, and waits for what is said of it. */
+const copied = async (page, words) => {
+  await page.click("#link");
+  await until(page, (words) => document.getElementById("status").textContent.includes(words), words);
+};
 const steps = (page) => page.evaluate(async () => (await window.motes.status()).steps);
 
 /** How many pixels of the canvas are brighter than a dark grey, and their means: it is drawn again, and read by the page itself. */
@@ -154,7 +159,7 @@ const tests = {
     const [time, kinetic, potential] = await page.evaluate(async () => [...await window.motes.advance(50)]);
     const ratio = kinetic / potential / Math.tan(time) ** 2;
     assert.ok(time >= 0.5 && Math.abs(ratio - 1) < 1e-3, `${time} ${kinetic} ${potential} ${ratio}`);
-    await page.click("#link");
+    await copied(page, "the link");
     const link = await page.evaluate(() => location.hash);
     const other = await visit(link.slice(1));
     await until(other, () => document.getElementById("title").textContent.includes("springs"));
@@ -192,8 +197,7 @@ const tests = {
       assert.equal(await page.inputValue("#text"), before_text);
       assert.ok(!(await page.textContent("#tabs")).includes(name), `${name} is kept`);
     }
-    await page.click("#link");
-    assert.match(await page.textContent("#status"), /does not carry/);
+    await copied(page, "does not carry");
     // A scene with its files is run as it is; the way back leads to what ran before.
     await drop([["Four.TOML", "# Four stones.\n[simulation]\ndt = 0.01\nsteps = 10\n[[particles]]\nshape = \"sphere\"\ncount = 4\n[[force]]\nwgsl = \"hold.wgsl\"\nover = \"each\"\n"],
       ["hold.wgsl", "fn force(me: Particle) -> vec4f { return vec4f(0.0); }\n"]]);
@@ -254,6 +258,7 @@ const tests = {
     // The way back leads to this one, whatever is edited later; also to a text that is too long for a link.
     const noise = Array.from({ length: 4000 }, (_, i) => Math.imul(i, 2654435761) >>> 0).join(" ");
     const long = `${edited.replace("Four", "Six")}# ${noise}\n`;
+    await page.click("#edit");
     await page.fill("#text", long);
     await page.press("#text", "Control+Enter");
     await until(page, () => document.getElementById("title").textContent === "kepler: Six stones.");
@@ -262,8 +267,7 @@ const tests = {
     await page.goBack();
     await until(page, () => document.getElementById("title").textContent === "kepler: Six stones.");
     assert.equal(await page.inputValue("#text"), long);
-    await page.click("#link");
-    assert.match(await page.textContent("#status"), /too long for a link/);
+    await copied(page, "too long for a link");
     await page.goBack();
     await until(page, () => document.getElementById("title").textContent === "kepler: Five stones.");
     await page.close();
@@ -280,7 +284,7 @@ const tests = {
     await until(page, async () => (await window.motes.changes()).length > 0);
     const changes = await page.evaluate(() => window.motes.changes());
     assert.ok(changes.some((value) => value.startsWith("picture.eye=[")), `${changes}`);
-    await page.click("#link");
+    await copied(page, "the link");
     const link = await page.evaluate(() => location.hash);
     assert.match(link, /picture\.extent=/);
     const other = await visit(`${link.slice(1)}&paused=1`);

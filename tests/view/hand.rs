@@ -75,6 +75,17 @@ impl Hand {
         self.view().end().expect("a film");
         self.taken()
     }
+    /// A contact sheet, as a window has one.
+    pub fn contact(&mut self) {
+        self.view().contact(egui::TextureId::default());
+    }
+    pub fn wanted(&mut self) -> Option<String> {
+        self.view().wanted()
+    }
+    /// Whether something with this label is shown.
+    pub fn shows(&self, label: &str) -> bool {
+        self.harness.query_all_by_label(label).next().is_some()
+    }
     /// What was changed by hand, as `--set` takes it.
     pub fn changes(&self) -> Vec<String> {
         self.harness.state().changes()

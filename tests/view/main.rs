@@ -1,5 +1,6 @@
 //! The viewer, by hand: events as a window gives them, and what they do to the run and to its picture.
 
+mod contact;
 mod hand;
 #[path = "../support/small.rs"]
 mod small;

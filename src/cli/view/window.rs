@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::{Instant, SystemTime};
 
-use egui::{Context, ViewportId};
+use egui::{ColorImage, Context, TextureHandle, TextureOptions, ViewportId};
 use egui_winit::winit;
 use motes::gpu::{Choice, Controls, Found, Window as Surface};
 use motes::view::{PICTURE, Taken, View};
@@ -106,6 +106,8 @@ struct Shell {
     context: Context,
     input: egui_winit::State,
     view: View<Gpu>,
+    /// Pictures of the scenes that come with motes.
+    contact: TextureHandle,
     files: Files,
     origin: Origin,
     /// What was to be opened last and has faults: it is tried again when its files change.
@@ -129,9 +131,11 @@ impl Shell {
         let context = Context::default();
         let input = egui_winit::State::new(context.clone(), ViewportId::ROOT, &window, None, window.theme(), None);
         let files = Files::of(&files, begun);
-        let view = block_on(View::new(&loaded.scene, loaded.setup, make(&found)))?;
+        let mut view = block_on(View::new(&loaded.scene, loaded.setup, make(&found)))?;
+        let contact = context.load_texture("scenes", contact()?, TextureOptions::LINEAR);
+        view.contact(contact.id());
         window.request_redraw();
-        Ok(Self { window, surface, found, context, input, view, files, origin, faulty: None, frames: 0 })
+        Ok(Self { window, surface, found, context, input, view, contact, files, origin, faulty: None, frames: 0 })
     }
     /// Opens a scene that was dropped on the window, or the present one with another file.
     fn drop(&mut self, args: &ViewArgs, path: &Path) {
@@ -149,6 +153,7 @@ impl Shell {
             let loaded = super::load(args, origin, &mut files).await?;
             let title = loaded.scene.name.clone();
             let mut view = View::new(&loaded.scene, loaded.setup, make(&self.found)).await?;
+            view.contact(self.contact.id());
             if origin.is_of(&self.origin) {
                 view.follow(&self.view);
             }
@@ -218,6 +223,20 @@ impl Shell {
         }
         Ok(())
     }
+}
+
+/// The contact sheet of the scenes.
+fn contact() -> Result<ColorImage, Error> {
+    let bad = |why: String| Error::Device(format!("the pictures of scenes cannot be read: {why}"));
+    let file = std::io::Cursor::new(include_bytes!("../../../scenes/contact.png"));
+    let mut reader = png::Decoder::new(file).read_info().map_err(|why| bad(why.to_string()))?;
+    let mut rgb = vec![0; reader.output_buffer_size().ok_or_else(|| bad("it is too large".to_owned()))?];
+    let info = reader.next_frame(&mut rgb).map_err(|why| bad(why.to_string()))?;
+    let (wide, high) = (info.width as usize, info.height as usize);
+    if rgb.len() != 3 * wide * high {
+        return Err(bad("it is not in red, green and blue of a byte each".to_owned()));
+    }
+    Ok(ColorImage::from_rgb([wide, high], &rgb))
 }
 
 /// Makes simulations on a device.
