@@ -2,6 +2,7 @@
 
 mod contact;
 mod hand;
+mod panel;
 #[path = "../support/small.rs"]
 mod small;
 mod window;
@@ -116,100 +117,6 @@ fn a_picture_and_a_film_of_one_frame_are_both_saved() {
     assert_eq!(names, [Some("plummer_000000.png".len()), Some("plummer_000000_film.png".len()), None]);
 }
 
-/// What was changed by hand, given to another run, shows the same picture of the same forces.
-#[test]
-fn what_was_changed_is_written_as_values_of_the_command() {
-    let particles = ["particles.0.count=200", "simulation.steps=1000"];
-    let mut hand = Hand::on("plummer", &particles);
-    hand.key(Key::Space, Modifiers::NONE);
-    hand.frames(2);
-    assert_eq!(hand.changes(), [""; 0], "nothing was changed");
-    let place = hand.place_beside("softening");
-    hand.drag(place, Vec2::new(40.0, 0.0), PointerButton::Primary);
-    hand.choose("background", "black");
-    hand.drag(Pos2::new(250.0, 600.0), Vec2::new(60.0, 20.0), PointerButton::Primary);
-    hand.wheel(Pos2::new(250.0, 600.0), 50.0);
-    let changes = hand.changes();
-    let keys: Vec<&str> = changes.iter().filter_map(|value| value.split('=').next()).collect();
-    let camera = ["width", "height", "eye", "up", "projection", "auto_frame", "center", "extent"];
-    let camera = camera.map(|key| format!("picture.{key}"));
-    assert_eq!(keys, [&["force.0.softening", "picture.background"][..], &camera.each_ref().map(|key| &**key)].concat());
-    hand.key(Key::R, Modifiers::NONE);
-    hand.key(Key::C, Modifiers::NONE);
-    assert!(hand.message().contains("10 values"), "{}", hand.message());
-    let all: Vec<&str> = particles.into_iter().chain(changes.iter().map(String::as_str)).collect();
-    let mut other = Hand::on("plummer", &all);
-    other.key(Key::Space, Modifiers::NONE);
-    // One step was made meanwhile.
-    other.key(Key::R, Modifiers::NONE);
-    other.frames(2);
-    let softening = |hand: &mut Hand| hand.setting("gravity", "softening");
-    assert_eq!(softening(&mut hand), softening(&mut other));
-    // By the way back the camera is that of the scene.
-    assert_eq!(other.changes(), [""; 0]);
-}
-
-#[test]
-fn a_style_has_its_notes_wherever_it_is_chosen() {
-    let mut hand = Hand::on("plummer", &["particles.0.count=2000"]);
-    hand.key(Key::Space, Modifiers::NONE);
-    hand.frames(2);
-    let noted = |hand: &Hand| hand.changes().contains(&"picture.annotate=true".to_owned());
-    assert!(!noted(&hand));
-    hand.choose("style", "density");
-    assert!(noted(&hand), "{:?}", hand.changes());
-    hand.choose("style", "balls");
-    assert!(!noted(&hand), "{:?}", hand.changes());
-}
-
-/// The coefficients of pairs of species, and texts, have controls as numbers have.
-#[test]
-fn tables_and_texts_are_changed_in_the_panel() {
-    let mut hand = Hand::on("salt", &["simulation.steps=10"]);
-    hand.key(Key::Space, Modifiers::NONE);
-    hand.frames(2);
-    let before = hand.setting("born_mayer", "pairs");
-    let place = hand.place_beside("pairs");
-    hand.drag(place, Vec2::new(30.0, 0.0), PointerButton::Primary);
-    hand.frames(2);
-    let after = hand.setting("born_mayer", "pairs");
-    let (Value::Pairs(before), Value::Pairs(after)) = (&before, &after) else { panic!("tables") };
-    let differ = before.iter().zip(after).flat_map(|(a, b)| a.values.iter().zip(&b.values)).filter(|(a, b)| a != b);
-    assert_eq!(differ.count(), 1, "{}: {after:?}", hand.message());
-    assert!(hand.changes().iter().any(|value| value.starts_with("force.") && value.contains("species = [0, 0]")));
-}
-
-/// Measures that are looked at are taken and plotted, those of flocks too.
-#[test]
-fn measures_are_plotted_while_they_are_looked_at() {
-    let mut hand = Hand::on("vicsek", small::smaller("vicsek"));
-    hand.frames(2);
-    for header in ["Measures", "flock"] {
-        let place = hand.place(header);
-        hand.click(place);
-        hand.frames(30);
-    }
-    let steps = hand.steps();
-    hand.until(steps + 30);
-    for cell in ["kinetic", "order", "clusters"] {
-        hand.place(cell);
-    }
-    let place = hand.place("clusters");
-    hand.click(place);
-    hand.frames(5);
-    assert_eq!(hand.message(), "");
-}
-
-#[test]
-fn the_panel_has_the_letters_of_all_scenes() {
-    let hand = Hand::on("plummer", &["particles.0.count=10"]);
-    for scene in motes::scene::SCENES {
-        let missing: String = scene.about().chars().filter(|c| !hand.can_write(&c.to_string())).collect();
-        assert_eq!(missing, "", "{}", scene.name);
-    }
-    assert!(!hand.can_write("ξ₁ᵢ"));
-}
-
 #[test]
 fn keys_pause_step_and_go_back() {
     let mut hand = Hand::on("plummer", &["particles.0.count=500"]);
@@ -254,46 +161,6 @@ fn dragging_turns_the_picture_and_the_wheel_comes_closer() {
     assert!(near > 1.05 * far, "closer, particles are farther from the middle: {near} after {far} pixels");
     hand.key(Key::F, Modifiers::NONE);
     assert_ne!(hand.picture(), closer);
-}
-
-#[test]
-fn a_slider_changes_the_force_while_the_run_goes_on() {
-    let mut hand = Hand::on("plummer", &["particles.0.count=500"]);
-    hand.frames(3);
-    let softening = |hand: &mut Hand| hand.setting("gravity", "softening");
-    let before = softening(&mut hand);
-    let place = hand.place_beside("softening");
-    hand.drag(place, Vec2::new(40.0, 0.0), PointerButton::Primary);
-    let after = softening(&mut hand);
-    let (Value::Number(before), Value::Number(after)) = (before, after) else { panic!("numbers") };
-    assert!((after - before).abs() > 1e-3 * before, "{before} stays {after}");
-    assert_eq!(hand.message(), "");
-    let steps = hand.steps();
-    hand.frames(3);
-    assert_eq!(hand.steps(), steps + 3, "the run goes on");
-    // Back to the settings of the scene.
-    let place = hand.place("Scene");
-    hand.click(place);
-    hand.frames(1);
-    assert_eq!(softening(&mut hand), Value::Number(before));
-}
-
-#[test]
-fn what_kernels_depend_on_is_compiled_anew_and_said() {
-    let mut hand = Hand::on("flock", &["particles.0.count=500"]);
-    hand.frames(2);
-    let before = hand.setting("boids", "range");
-    // A force with many settings is folded at first.
-    let place = hand.place("boids");
-    hand.click(place);
-    hand.frames(30);
-    let place = hand.place_beside("range");
-    hand.drag(place, Vec2::new(25.0, 0.0), PointerButton::Primary);
-    assert_ne!(hand.setting("boids", "range"), before, "{}", hand.message());
-    assert!(hand.message().contains("compiled anew"), "{}", hand.message());
-    let steps = hand.steps();
-    hand.frames(2);
-    assert_eq!(hand.steps(), steps + 2, "the run goes on where it was");
 }
 
 /// The places of the brightest spots of a picture, in points of the window: pixels beyond it are cut off, as many at both sides.
