@@ -1,7 +1,7 @@
 //! Pictures in a row, in which nothing jumps but the particles.
 
 use super::draw::{Image, exposed};
-use super::{Exposure, Picture, Solid, Trail};
+use super::{Color, Exposure, Picture, Solid, Trail};
 use crate::error::Error;
 use crate::kernel::Backend;
 
@@ -10,8 +10,18 @@ use crate::kernel::Backend;
 pub struct Film {
     picture: Picture,
     exposure: Option<Exposure>,
+    /// The scale of a column's colours before it was resumed.
+    scale: Option<Ends>,
     /// The part by which each picture approaches its own exposure.
     follow: f64,
+}
+
+/// The ends of a scale of values, and whether it is logarithmic.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Ends {
+    pub low: f64,
+    pub high: f64,
+    pub logarithmic: bool,
 }
 
 /// The margin of a film beyond the first state in each direction, where the camera is framed automatically.
@@ -28,7 +38,7 @@ impl Film {
             picture.frame.camera = picture.frame.camera.wider(ROOM);
         }
         let follow = 1.0 - (-1.0 / (HALF_WAY * frames.max(1) as f64)).exp2();
-        Self { picture, exposure: None, follow }
+        Self { picture, exposure: None, scale: None, follow }
     }
     /// The settings of its pictures.
     #[must_use]
@@ -55,9 +65,26 @@ impl Film {
     pub fn exposure(&self) -> Option<Exposure> {
         self.exposure
     }
-    /// Continues after a picture with this exposure.
-    pub fn go_on(&mut self, exposure: Exposure) {
-        self.exposure = Some(exposure);
+    /// The scale of a column's colours, if they have one.
+    pub(crate) fn scale(&self) -> Option<Ends> {
+        match &self.picture.color {
+            Color::Value(of) => Some(Ends { low: of.low, high: of.high, logarithmic: of.logarithmic }),
+            // Nothing was drawn since it was resumed.
+            _ => self.scale,
+        }
+    }
+    /// Continues after a picture with this exposure, and with this scale of a column's colours.
+    pub(crate) fn go_on(&mut self, exposure: Option<Exposure>, scale: Option<Ends>) {
+        (self.exposure, self.scale) = (exposure, scale);
+    }
+    /// Takes the scale from before, where a picture has got one of its own.
+    pub(crate) fn rescale(&mut self) {
+        let Some(Ends { low, high, logarithmic }) = self.scale.take() else { return };
+        let mut color = self.picture.color.clone();
+        if let Color::Value(of) = &mut color {
+            (of.low, of.high, of.logarithmic) = (low, high, logarithmic);
+            self.picture.paint(color);
+        }
     }
     /// The exposure of the next picture, whose own would be this one.
     fn follow(&mut self, metered: Exposure) -> Exposure {

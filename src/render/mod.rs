@@ -36,6 +36,7 @@ pub use exposure::Exposure;
 pub use fields::PIXELS;
 #[cfg(feature = "panel")]
 pub(crate) use fields::PROJECTED;
+pub(crate) use film::Ends;
 pub use film::{Film, shoot};
 pub use fluid::{Plane, Water};
 pub use frame::Frame;

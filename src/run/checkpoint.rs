@@ -20,7 +20,7 @@ use crate::error::Error;
 use crate::formats::{Input, Precision, atomically, npz};
 use crate::kernel::Columns;
 use crate::life::Life;
-use crate::render::Exposure;
+use crate::render::{Ends, Exposure};
 use crate::state::State;
 
 /// The prefix of the entries beside arrays.
@@ -33,7 +33,7 @@ const FILM: &str = "film.npz";
 /// The folder of the files that the scene reads.
 const FILE: &str = "files/";
 /// The version of the format.
-const FORMAT: u64 = 1;
+const FORMAT: u64 = 2;
 
 /// The program and the machine of a run.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -67,6 +67,8 @@ pub(super) struct Reel {
     pub done: u64,
     pub outside: u64,
     pub exposure: Option<Exposure>,
+    /// The scale of a column's colours.
+    pub scale: Option<Ends>,
     /// The state for which the camera was set up, and the number of pushes to the trail at that time.
     pub first: Option<State>,
     /// Whether that state has a life column: files have none where all particles are active.
@@ -104,6 +106,7 @@ pub(super) fn write(
     let list = |all: &mut dyn Iterator<Item = u64>| Value::Array(all.map(number).collect());
     let film = &past.film;
     let exposure = film.exposure.map(|Exposure { knee, white }| [knee.to_bits(), white.to_bits()]);
+    let scale = film.scale.map(|of| [of.low.to_bits(), of.high.to_bits(), of.logarithmic.into()]);
     let head: Toml = [
         ("format", number(FORMAT)),
         ("version", place.version.as_str().into()),
@@ -123,6 +126,7 @@ pub(super) fn write(
         ("film_done", number(film.done)),
         ("film_outside", number(film.outside)),
         ("film_exposure", list(&mut exposure.into_iter().flatten())),
+        ("film_scale", list(&mut scale.into_iter().flatten())),
         ("film_life", film.life.into()),
         ("film_pushes", number(film.pushes)),
         ("film_steps", list(&mut film.steps.iter().copied())),
@@ -299,10 +303,17 @@ fn read(file: &Path) -> Result<Checkpoint, Unread> {
         [knee, white] => Some(Exposure { knee: f64::from_bits(knee), white: f64::from_bits(white) }),
         _ => None,
     };
+    let scale = match head.list("film_scale")?[..] {
+        [low, high, logarithmic] => {
+            Some(Ends { low: f64::from_bits(low), high: f64::from_bits(high), logarithmic: logarithmic != 0 })
+        }
+        _ => None,
+    };
     let film = Reel {
         done: head.number("film_done")?,
         outside: head.number("film_outside")?,
         exposure,
+        scale,
         first: None,
         life: head.of("film_life", Value::as_bool)?,
         pushes: head.number("film_pushes")?,

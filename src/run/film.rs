@@ -216,6 +216,7 @@ impl Film {
             done: self.done.len() as u64,
             outside: self.outside.into(),
             exposure: self.reel.as_ref().and_then(render::Film::exposure),
+            scale: self.reel.as_ref().and_then(render::Film::scale),
             first: self.first.as_ref().map(|(state, _)| state.clone()),
             life: self.first.as_ref().is_some_and(|(state, _)| !state.life().is_empty()),
             pushes: self.first.as_ref().map_or(0, |(_, pushes)| *pushes),
@@ -240,8 +241,8 @@ impl Film {
         if let Some(state) = from.film(columns)? {
             self.begin((state, reel.pushes), (to.0, to.1), self.auto_frame)?;
         }
-        if let (Some(film), Some(exposure)) = (&mut self.reel, reel.exposure) {
-            film.go_on(exposure);
+        if let Some(film) = &mut self.reel {
+            film.go_on(reel.exposure, reel.scale);
         }
         if reel.numbers.len() != reel.steps.len() / 2 * 8 * count {
             let message = "is damaged: states of the film are missing".to_owned();

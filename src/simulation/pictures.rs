@@ -30,6 +30,7 @@ impl<B: Backend> Simulation<B> {
         self.fits(film.picture())?;
         self.settle().await?;
         Box::pin(self.scale(film.picture_mut())).await?;
+        film.rescale();
         render::shoot(&mut self.backend, film).await
     }
     /// Draws the current state into a field of the device, and reads nothing back of it.
