@@ -66,6 +66,8 @@ const keep = () => {
   try {
     localStorage.setItem(DRAFT, JSON.stringify({ name: open.name, text: open.text, files: Object.fromEntries(open.files) }));
     hang();
+    // When the page is loaded again, what was edited is there.
+    if (location.hash === "#draft=1") stay(open);
   } catch {
     // A browser may keep nothing.
   }
@@ -78,6 +80,14 @@ const draft = () => {
   }
 };
 const given = ({ name, text, files }) => ({ name: String(name), text: String(text), files: new Map(Object.entries(files ?? {})), own: true });
+/** Keeps a scene in the present entry of the browser's history, if the browser can. */
+const stay = (scene) => {
+  try {
+    history.replaceState(record(scene), "");
+  } catch {
+    // It is too long for this browser, which then finds the last draft.
+  }
+};
 /** A scene as an entry of the browser's history keeps it, for the way back to it. */
 const record = ({ name, text, files, overrides, scale, own }) => ({ scene: { name, text, files: Object.fromEntries(files), overrides, scale, own } });
 
@@ -100,7 +110,7 @@ const follow = async () => {
       if (!draft()) throw new Error("nothing was edited in this browser");
       Object.assign(next, given(draft()));
       // What is edited later is another one.
-      history.replaceState(record(next), "");
+      stay(next);
     } else if (scenes.has(next.name)) {
       const { text, files } = scenes.get(next.name);
       Object.assign(next, { text, files: new Map(files) });
@@ -126,7 +136,9 @@ const run = (next, paused = false) => {
     // The words above are shown before the work begins.
     await new Promise((done) => setTimeout(done, 30));
     try {
+      const asked = signature(open);
       const remarks = await viewer.load(next.name, next.text, [...next.files].flat(), next.overrides, next.scale, paused);
+      running = asked;
       say(remarks.join("\n"), true);
       if (at("editor").hidden) at("canvas").focus({ preventScroll: true });
       runs = true;
@@ -138,14 +150,18 @@ const run = (next, paused = false) => {
   });
   return loads.then(() => runs);
 };
+/** What a scene is made of, and that of what runs. */
+const signature = ({ name, text, files, overrides, scale }) => JSON.stringify([name, text, [...files], overrides, scale]);
+let running = "";
 /** Gives a scene a place of its own among those that were open: the way back leads to what ran before. */
 const remember = async (next) => {
   const url = await address(next);
-  if (url === location.href) return;
+  const kept = history.state?.scene;
+  if (url === location.href || (kept && JSON.stringify(kept) === JSON.stringify(record(next).scene))) return;
   try {
     history.pushState(record(next), "", url ?? `#scene=${encodeURIComponent(next.name)}`);
   } catch {
-    // A browser may keep no text as long as this one.
+    announce("the browser keeps no text as long as this one: there is no way back to it", true);
   }
 };
 const refuse = (text) => {
@@ -207,13 +223,18 @@ const address = async ({ name, text, files, overrides, scale, own }) => {
     link.set("text", words);
   }
   if (scale !== undefined) link.set("scale", String(scale));
-  for (const value of overrides) link.set(...value.split(/=(.*)/s, 2));
+  for (const value of overrides) {
+    const [key, to] = value.split(/=(.*)/s, 2);
+    // The last one holds, for all of its parts.
+    [...link.keys()].filter((known) => known === key || known.startsWith(`${key}.`)).forEach((known) => link.delete(known));
+    link.append(key, to);
+  }
   return `${location.href.split("#")[0]}#${link}`;
 };
 at("link").onclick = async () => {
   if ([...held].some((name) => open.text.includes(name))) return announce("a link does not carry files of particles: save the scene, and keep them beside it", true);
-  // What was changed by hand since it was opened belongs to it.
-  const changes = await viewer?.changes() ?? [];
+  // What was changed by hand belongs to what runs, which may be another one than what is written.
+  const changes = signature(open) === running ? await viewer?.changes() ?? [] : [];
   const url = await address({ ...open, overrides: [...open.overrides, ...changes] });
   if (!url) return announce("this scene is too long for a link: save it as a file", true);
   history.replaceState(null, "", url);

@@ -19,8 +19,11 @@ pub struct Film {
 /// The ends of a scale of values, and whether it is logarithmic.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Ends {
+    /// The dark end.
     pub low: f64,
+    /// The bright end.
     pub high: f64,
+    /// Whether it is logarithmic.
     pub logarithmic: bool,
 }
 
@@ -66,7 +69,8 @@ impl Film {
         self.exposure
     }
     /// The scale of a column's colours, if they have one.
-    pub(crate) fn scale(&self) -> Option<Ends> {
+    #[must_use]
+    pub fn scale(&self) -> Option<Ends> {
         match &self.picture.color {
             Color::Value(of) => Some(Ends { low: of.low, high: of.high, logarithmic: of.logarithmic }),
             // Nothing was drawn since it was resumed.
@@ -74,7 +78,7 @@ impl Film {
         }
     }
     /// Continues after a picture with this exposure, and with this scale of a column's colours.
-    pub(crate) fn go_on(&mut self, exposure: Option<Exposure>, scale: Option<Ends>) {
+    pub fn go_on(&mut self, exposure: Option<Exposure>, scale: Option<Ends>) {
         (self.exposure, self.scale) = (exposure, scale);
     }
     /// Takes the scale from before, where a picture has got one of its own.

@@ -36,8 +36,7 @@ pub use exposure::Exposure;
 pub use fields::PIXELS;
 #[cfg(feature = "panel")]
 pub(crate) use fields::PROJECTED;
-pub(crate) use film::Ends;
-pub use film::{Film, shoot};
+pub use film::{Ends, Film, shoot};
 pub use fluid::{Plane, Water};
 pub use frame::Frame;
 pub use keys::KEYS;

@@ -37,6 +37,8 @@ pub struct Picture {
     has_inactive: bool,
 }
 
+/// The brightest bloom, as a multiple of the usual one.
+const BLOOM: f64 = 1000.0;
 /// Pixels from side to side, at most: one invocation draws a whole line.
 const SIDE: f64 = 8192.0;
 /// Pixels in all, at most: three numbers for each fit the 128 MiB that every device binds.
@@ -77,6 +79,12 @@ impl Picture {
         if !(1.0..=SIDE).contains(&width) || !(1.0..=SIDE).contains(&height) || width * height > f64::from(AREA) {
             return Err(Error::Scene(format!(
                 "a picture of {width} × {height} pixels is too large: each side may have {SIDE}, and all of it {AREA}"
+            )));
+        }
+        let bloom = settings.number("bloom");
+        if bloom > BLOOM {
+            return Err(Error::Scene(format!(
+                "`bloom` of the picture is {bloom}: above {BLOOM} nothing but light is left, so give a smaller one"
             )));
         }
         let count = u32::try_from(particles.rows()).ok().filter(|n| *n > 0);
@@ -136,7 +144,7 @@ impl Picture {
             },
             line: (short / 800.0).max(0.5),
             // A bright sky outshines every bloom.
-            bloom: if bright || wet { 0.0 } else { 1.8 * settings.number("bloom") },
+            bloom: if bright || wet { 0.0 } else { 1.8 * bloom },
             reach: super::frame::whole(short / 48.0).max(1),
             tail: settings.number("tail"),
             // White has no hue to say where it is heading.

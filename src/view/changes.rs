@@ -5,7 +5,7 @@ use crate::component::Component;
 use crate::kernel::Backend;
 use crate::render::KEYS;
 use crate::scene::written;
-use crate::settings::Value;
+use crate::settings::{Key, Value};
 
 /// The keys of a picture that the place of a view gives, or its camera.
 const PLACE: [&str; 8] = ["width", "height", "eye", "up", "projection", "auto_frame", "center", "extent"];
@@ -28,20 +28,25 @@ impl<B: Backend> Stage<B> {
         };
         let looks = self.pictures.looks();
         for (name, value) in looks.0.iter().filter(|(name, _)| !PLACE.contains(name)) {
-            if self.looks.0.get(name) != Some(value) {
+            // A word that was chosen changes the defaults of other keys, which are given for that reason.
+            let chosen = |key: &&Key| self.looks.0.get(key.name) != looks.0.get(key.name);
+            let under = |key: &Key| key.presets.iter().any(|of| of.defaults.iter().any(|(under, _)| under == name));
+            if self.looks.0.get(name) != Some(value) || KEYS.iter().filter(chosen).any(under) {
                 picture(name, value);
             }
         }
-        if self.moved() {
-            let frame = &self.picture().frame;
-            let camera = &frame.camera;
+        let frame = &self.picture().frame;
+        let camera = &frame.camera;
+        if self.moved() || self.aimed() {
             let projection = if camera.distance > 0.0 { "perspective" } else { "orthographic" };
-            picture("width", &frame.width.into());
-            picture("height", &frame.height.into());
             picture("eye", &camera.back.into());
             picture("up", &camera.up.into());
             picture("projection", &projection.into());
-            picture("auto_frame", &false.into());
+            picture("auto_frame", &(!self.moved()).into());
+        }
+        if self.moved() {
+            picture("width", &frame.width.into());
+            picture("height", &frame.height.into());
             picture("center", &camera.center.into());
             picture("extent", &camera.extent.into());
         }

@@ -32,6 +32,8 @@ pub fn show<B: Backend>(view: &mut View<B>, ui: &mut Ui) {
         Panel::right("panel").default_size(PANEL).show(ui, |ui| {
             ScrollArea::vertical().show(ui, |ui| panel(view, ui));
         });
+    } else {
+        view.plots.close();
     }
     CentralPanel::default().frame(Frame::NONE).show(ui, |ui| picture(view, ui));
     if view.help {
@@ -46,7 +48,7 @@ pub fn show<B: Backend>(view: &mut View<B>, ui: &mut Ui) {
 
 fn keys(ui: &mut Ui) {
     egui::Grid::new("keys").striped(true).show(ui, |ui| {
-        for (key, about) in keyboard::KEYS {
+        for (key, about) in keyboard::keys() {
             ui.monospace(*key);
             ui.label(*about);
             ui.end_row();

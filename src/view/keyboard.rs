@@ -33,6 +33,11 @@ pub const KEYS: &[(&str, &str)] = &[
     ("wheel", "closer, farther, at the pointer"),
 ];
 
+/// Those that this shell has: a page has buttons for some.
+pub fn keys() -> impl Iterator<Item = &'static (&'static str, &'static str)> {
+    KEYS.iter().filter(|(key, _)| !(cfg!(target_arch = "wasm32") && ["L", "C"].contains(key)))
+}
+
 /// So far an arrow turns the camera \[radians\], and so much closer a key goes.
 const TURN: f64 = 0.1;
 const CLOSER: f64 = 0.8;

@@ -69,15 +69,20 @@ impl Plots {
     /// Measures a state, which was read since it was due.
     pub fn take(&mut self, state: &Arc<State>) {
         let moment = Moment { state, density: &[], clock: None, links: None, virial: None };
-        self.all.iter_mut().filter(|one| one.open).for_each(|one| one.take(&moment));
+        // Energies cost little, and are known from the start.
+        self.all.iter_mut().filter(|one| one.open || one.measure.name == "energy").for_each(|one| one.take(&moment));
     }
     /// All that is done with the state was done.
     pub fn done(&mut self) {
         self.times.done();
     }
+    /// Nothing of them is seen.
+    pub fn close(&mut self) {
+        self.all.iter_mut().for_each(|one| one.open = false);
+    }
     /// Shows those that are looked at, and a header of each.
     pub fn show(&mut self, ui: &mut Ui) {
-        self.all.iter_mut().for_each(|one| one.open = false);
+        self.close();
         CollapsingHeader::new("Measures").default_open(false).show(ui, |ui| {
             for one in &mut self.all {
                 let title = CollapsingHeader::new(one.measure.name).default_open(one.measure.name == "energy");
@@ -112,8 +117,9 @@ impl Plotted {
         match self.series.take(moment).as_deref() {
             Ok([row]) => {
                 let row = numbers(row);
-                if self.first.is_empty() {
-                    self.first.clone_from(&row);
+                self.first.resize(row.len(), f64::NAN);
+                for (first, now) in self.first.iter_mut().zip(&row).filter(|(first, _)| !first.is_finite()) {
+                    *first = *now;
                 }
                 if self.rows.len() == KEPT {
                     self.rows.pop_front();
@@ -150,7 +156,8 @@ impl Plotted {
                 }
                 if now.is_finite() {
                     ui.monospace(digits(*now));
-                    ui.monospace(format!("{:+.1e}", now - first)).on_hover_text("its change since the start");
+                    ui.monospace(format!("{:+.1e}", now - first))
+                        .on_hover_text("its change since it was first measured");
                 }
                 ui.end_row();
             }

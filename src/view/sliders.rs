@@ -125,7 +125,8 @@ fn line(ui: &mut Ui, now: &str, label: &egui::Response) -> Option<Value> {
     let response = ui.add(egui::TextEdit::singleline(&mut text).desired_width(140.0)).labelled_by(label.id);
     if response.lost_focus() {
         ui.data_mut(|data| data.remove::<String>(id));
-        return (text != now).then(|| Value::Text(text.into()));
+        let entered = ui.input(|input| input.key_pressed(egui::Key::Enter));
+        return (entered && text != now).then(|| Value::Text(text.into()));
     }
     if response.has_focus() {
         ui.data_mut(|data| data.insert_temp(id, text));

@@ -43,6 +43,8 @@ pub struct Stage<B: Backend> {
     framed: State,
     /// Whether the camera was moved by hand.
     moved: bool,
+    /// Whether all particles were framed from where the camera was.
+    aimed: bool,
     /// Whether the forces have changed since the last picture.
     stale: bool,
     time: f64,
@@ -73,6 +75,7 @@ impl<B: Backend> Stage<B> {
             live,
             framed,
             moved: false,
+            aimed: false,
             stale: false,
             time,
             fine,
@@ -88,6 +91,10 @@ impl<B: Backend> Stage<B> {
     /// Whether the camera was moved by hand.
     pub fn moved(&self) -> bool {
         self.moved
+    }
+    /// Whether all particles were framed from where the camera was.
+    pub fn aimed(&self) -> bool {
+        self.aimed
     }
     pub fn picture(&self) -> &Picture {
         &self.live.picture
@@ -226,7 +233,7 @@ impl<B: Backend> Stage<B> {
     pub fn camera(&mut self, moved: impl FnOnce(Camera) -> Camera) {
         let camera = &mut self.live.picture.frame.camera;
         let next = moved(*camera);
-        if next.center.is_finite() && next.extent.is_normal() && next.extent < 1e30 {
+        if next.center.is_finite() && (1e-30..1e30).contains(&next.extent) {
             (*camera, self.moved) = (next, true);
         }
     }
@@ -234,7 +241,7 @@ impl<B: Backend> Stage<B> {
     pub async fn frame(&mut self) -> Result<(), Error> {
         let camera = self.live.picture.frame.camera;
         self.pictures.aim(&camera);
-        self.moved = false;
+        (self.moved, self.aimed) = (false, true);
         self.compose_anew(Kept::default()).await
     }
     /// Changes a setting of a force. Where kernels depend on it, they are compiled anew for the present state, and this is said.

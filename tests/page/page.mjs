@@ -273,10 +273,11 @@ const tests = {
     await page.close();
   },
   async "a link carries what was changed by hand"() {
-    const page = await visit("scene=plummer&scale=0.01&paused=1");
-    await runs(page, "plummer");
+    const page = await visit("scene=cloth&scale=0.2&paused=1");
+    await runs(page, "cloth");
     await page.waitForTimeout(1000);
     assert.deepEqual(await page.evaluate(() => window.motes.changes()), []);
+    const before = await lit(page, "straight");
     await page.mouse.move(200, 300);
     await page.mouse.down();
     await page.mouse.move(260, 320, { steps: 4 });
@@ -288,11 +289,12 @@ const tests = {
     const link = await page.evaluate(() => location.hash);
     assert.match(link, /picture\.extent=/);
     const other = await visit(`${link.slice(1)}&paused=1`);
-    await runs(other, "plummer");
+    await runs(other, "cloth");
     assert.equal(await other.textContent("#faults"), "");
     await other.waitForTimeout(1000);
     const [one, two] = [await lit(page, "turned"), await lit(other, "linked")];
     assert.ok(Math.abs(one.sum - two.sum) < 0.02 * one.sum, `the same view: ${one.sum} and ${two.sum}`);
+    assert.ok(Math.abs(one.sum - before.sum) > 0.03 * one.sum, `another view than before: ${one.sum} and ${before.sum}`);
     await page.close();
     await other.close();
   },

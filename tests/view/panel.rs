@@ -61,7 +61,7 @@ fn what_was_changed_is_written_as_values_of_the_command() {
     hand.wheel(Pos2::new(250.0, 600.0), 50.0);
     let changes = hand.changes();
     let keys: Vec<&str> = changes.iter().filter_map(|value| value.split('=').next()).collect();
-    let camera = ["width", "height", "eye", "up", "projection", "auto_frame", "center", "extent"];
+    let camera = ["eye", "up", "projection", "auto_frame", "width", "height", "center", "extent"];
     let camera = camera.map(|key| format!("picture.{key}"));
     assert_eq!(keys, [&["force.0.softening", "picture.background"][..], &camera.each_ref().map(|key| &**key)].concat());
     hand.key(Key::R, Modifiers::NONE);
@@ -75,6 +75,10 @@ fn what_was_changed_is_written_as_values_of_the_command() {
     other.frames(2);
     let softening = |hand: &mut Hand| hand.setting("gravity", "softening");
     assert_eq!(softening(&mut hand), softening(&mut other));
+    hand.frames(2);
+    let (one, two) = (hand.picture(), other.picture());
+    let differ = one.iter().zip(&two).filter(|(a, b)| a.abs_diff(**b) > 8).count();
+    assert!(one.len() == two.len() && differ < one.len() / 1000, "{differ} of {} bytes are others", one.len());
     // By the way back the camera is that of the scene.
     assert_eq!(other.changes(), [""; 0]);
 }
@@ -88,6 +92,10 @@ fn a_style_has_its_notes_wherever_it_is_chosen() {
     assert!(!noted(&hand));
     hand.choose("style", "density");
     assert!(noted(&hand), "{:?}", hand.changes());
+    let place = hand.place_beside("annotate");
+    hand.click(place);
+    hand.frames(2);
+    assert!(hand.changes().contains(&"picture.annotate=false".to_owned()), "{:?}", hand.changes());
     hand.choose("style", "balls");
     assert!(!noted(&hand), "{:?}", hand.changes());
 }
@@ -106,7 +114,11 @@ fn tables_and_texts_are_changed_in_the_panel() {
     let (Value::Pairs(before), Value::Pairs(after)) = (&before, &after) else { panic!("tables") };
     let differ = before.iter().zip(after).flat_map(|(a, b)| a.values.iter().zip(&b.values)).filter(|(a, b)| a != b);
     assert_eq!(differ.count(), 1, "{}: {after:?}", hand.message());
-    assert!(hand.changes().iter().any(|value| value.starts_with("force.") && value.contains("species = [0, 0]")));
+    let changes = hand.changes();
+    assert!(changes.iter().any(|value| value.starts_with("force.") && value.contains("species = [0, 0]")));
+    // They are read back as they are.
+    let all: Vec<&str> = std::iter::once("simulation.steps=10").chain(changes.iter().map(String::as_str)).collect();
+    assert_eq!(Hand::on("salt", &all).setting("born_mayer", "pairs"), Value::Pairs(after.clone()));
 }
 
 /// Measures that are looked at are taken and plotted, those of flocks too.

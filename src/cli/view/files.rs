@@ -18,6 +18,10 @@ impl Files {
         let written = files.iter().map(|file| (file.clone(), modified(file).filter(|time| *time < begun))).collect();
         Self { written, looked: Instant::now() }
     }
+    /// Their paths.
+    pub fn paths(&self) -> impl Iterator<Item = &PathBuf> {
+        self.written.iter().map(|(file, _)| file)
+    }
     /// Whether one of them was written since it was read, and is at rest.
     pub fn changed(&mut self) -> bool {
         if self.looked.elapsed() < LOOK {

@@ -90,6 +90,22 @@ impl Origin {
             _ => false,
         }
     }
+    /// The command that opens it with the arguments. Files beside it are left out: a command has none.
+    fn command(&self, args: &ViewArgs) -> String {
+        use motes::scene::Source;
+        use motes::view::quoted;
+        let name = match &self.source {
+            Source::File(path) => path.display().to_string(),
+            Source::Builtin(scene) => scene.name.to_owned(),
+            Source::Text { name, .. } | Source::Memory { name, .. } => name.clone(),
+        };
+        let mut words = format!("motes view {}", quoted(&name));
+        if self.own {
+            words.extend(args.scale.map(|factor| format!(" --scale {factor}")));
+            words.extend(args.overrides.iter().map(|value| format!(" --set {}", quoted(value))));
+        }
+        if args.allow_outside { words + " --allow-outside" } else { words }
+    }
     /// The same with a file beside it, after those before.
     fn with(&self, file: &str) -> Self {
         let mut all = self.clone();

@@ -110,8 +110,8 @@ struct Shell {
     contact: TextureHandle,
     files: Files,
     origin: Origin,
-    /// What was to be opened last and has faults: it is tried again when its files change.
-    faulty: Option<Origin>,
+    /// What was to be opened last in its place and has faults: it is tried again when its files change, unless those of the present scene do.
+    faulty: Option<(Origin, Files)>,
     frames: u64,
 }
 
@@ -134,6 +134,7 @@ impl Shell {
         let mut view = block_on(View::new(&loaded.scene, loaded.setup, make(&found)))?;
         let contact = context.load_texture("scenes", contact()?, TextureOptions::LINEAR);
         view.contact(contact.id());
+        view.opened_by(origin.command(args));
         window.request_redraw();
         Ok(Self { window, surface, found, context, input, view, contact, files, origin, faulty: None, frames: 0 })
     }
@@ -154,24 +155,34 @@ impl Shell {
             let title = loaded.scene.name.clone();
             let mut view = View::new(&loaded.scene, loaded.setup, make(&self.found)).await?;
             view.contact(self.contact.id());
+            view.opened_by(origin.command(args));
             if origin.is_of(&self.origin) {
                 view.follow(&self.view);
             }
             Ok::<_, Failure>((view, title))
         });
-        if let Some(origin) = tried {
-            self.files = Files::of(&files, begun);
-            self.faulty = Some(origin);
-        }
         match opened {
             Ok((view, title)) => {
                 let mut before = std::mem::replace(&mut self.view, view);
                 let ended = before.end();
-                self.saved(ended.and_then(|()| save_all(&mut before)));
-                self.origin = self.faulty.take().unwrap_or_else(|| self.origin.clone());
+                let saved = save_all(&mut before);
+                self.saved(ended.and(saved));
+                (self.files, self.faulty) = (Files::of(&files, begun), None);
+                self.origin = tried.unwrap_or_else(|| self.origin.clone());
                 self.window.set_title(&format!("motes: {title}"));
             }
-            Err(failure) => self.view.say(failure.words()),
+            Err(failure) => {
+                self.view.say(failure.words());
+                match tried {
+                    Some(origin) if origin.is_of(&self.origin) && origin.beside == self.origin.beside => {
+                        // What it read before may be named again.
+                        files.extend(self.files.paths().cloned());
+                        (self.files, self.faulty) = (Files::of(&files, begun), None);
+                    }
+                    Some(origin) => self.faulty = Some((origin, Files::of(&files, begun))),
+                    None => (),
+                }
+            }
         }
         self.window.request_redraw();
     }
@@ -196,8 +207,9 @@ impl Shell {
     fn frame(&mut self, args: &ViewArgs) -> Result<(), Failure> {
         self.found.faults.check()?;
         if self.files.changed() {
-            let again = self.faulty.as_ref().unwrap_or(&self.origin).clone();
-            self.open_scene(args, Ok(again));
+            self.open_scene(args, Ok(self.origin.clone()));
+        } else if let Some((origin, _)) = self.faulty.take_if(|(_, files)| files.changed()) {
+            self.open_scene(args, Ok(origin));
         }
         let input = self.input.take_egui_input(&self.window);
         let mut output = self.context.run_ui(input, |ui| self.view.controls(ui));
@@ -247,7 +259,9 @@ fn make(found: &Found) -> motes::view::Make<Gpu> {
 
 /// Saves all that was taken.
 fn save_all(view: &mut View<Gpu>) -> Result<Vec<PathBuf>, Error> {
-    std::iter::from_fn(|| view.take()).map(|taken| save(&taken)).collect()
+    // One that cannot be saved does not keep the others from it.
+    let all: Vec<_> = std::iter::from_fn(|| view.take()).map(|taken| save(&taken)).collect();
+    all.into_iter().collect()
 }
 
 /// Saves a picture in the present folder, beside those that are there.
