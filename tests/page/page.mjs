@@ -273,14 +273,14 @@ const tests = {
     await page.close();
   },
   async "a link carries what was changed by hand"() {
-    const page = await visit("scene=cloth&scale=0.2&paused=1");
-    await runs(page, "cloth");
+    const page = await visit("scene=galaxy&scale=0.02&paused=1");
+    await runs(page, "galaxy");
     await page.waitForTimeout(1000);
     assert.deepEqual(await page.evaluate(() => window.motes.changes()), []);
     const before = await lit(page, "straight");
     await page.mouse.move(200, 300);
     await page.mouse.down();
-    await page.mouse.move(260, 320, { steps: 4 });
+    await page.mouse.move(210, 440, { steps: 4 });
     await page.mouse.up();
     await until(page, async () => (await window.motes.changes()).length > 0);
     const changes = await page.evaluate(() => window.motes.changes());
@@ -289,7 +289,7 @@ const tests = {
     const link = await page.evaluate(() => location.hash);
     assert.match(link, /picture\.extent=/);
     const other = await visit(`${link.slice(1)}&paused=1`);
-    await runs(other, "cloth");
+    await runs(other, "galaxy");
     assert.equal(await other.textContent("#faults"), "");
     await other.waitForTimeout(1000);
     const [one, two] = [await lit(page, "turned"), await lit(other, "linked")];
