@@ -66,8 +66,6 @@ const keep = () => {
   try {
     localStorage.setItem(DRAFT, JSON.stringify({ name: open.name, text: open.text, files: Object.fromEntries(open.files) }));
     hang();
-    // When the page is loaded again, what was edited is there.
-    if (location.hash === "#draft=1") stay(open);
   } catch {
     // A browser may keep nothing.
   }
@@ -399,6 +397,8 @@ const start = async () => {
   // What tests call.
   window.motes = viewer;
   window.addEventListener("popstate", follow);
+  // When the page is loaded again, what was edited last is there.
+  if (location.hash === "#draft=1") history.replaceState(null, "");
   await follow();
 };
 start().catch((why) => shown(`the page cannot start: ${why.message}`, true));
