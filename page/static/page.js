@@ -8,8 +8,6 @@ let viewer;
 /** What is open: a name, a text, files (names and texts) and values; the tab that is edited; whether it is as it was built in. */
 let open = { name: "", text: "", files: new Map(), overrides: [], scale: undefined };
 let tab = "";
-/** The title of the page before anything has run. */
-const TITLE = document.title;
 let loads = Promise.resolve();
 
 /** The first comment of a scene. */
@@ -165,7 +163,7 @@ const remember = async (next) => {
 const refuse = (text) => {
   say(text);
   toggle(true);
-  shown(`this scene has faults, which stand beside it${document.title === TITLE ? "" : "; what ran before goes on"}`, true);
+  shown(`this scene has faults, which stand beside it${running && "; what ran before goes on"}`, true);
 };
 
 /** The editor. */

@@ -8,6 +8,7 @@ use motes::run::Film;
 use serde_json::json;
 
 use super::progress::Progress;
+use super::shell::quoted;
 
 /// The report on the film of a run in this folder.
 pub fn lines(film: &Film, name: &str, folder: &Path, progress: &Progress) -> Vec<String> {
@@ -70,10 +71,4 @@ fn arguments(film: &Film, to: &str) -> Vec<String> {
     let words = ["-framerate", &rate, "-i", &files, "-frames:v", &frames, "-vf", even, "-c:v", "libx264"];
     let more = ["-crf", "18", "-pix_fmt", "yuv420p", "-movflags", "+faststart", to];
     words.into_iter().chain(more).map(str::to_owned).collect()
-}
-
-/// A word, quoted for a shell if necessary.
-fn quoted(word: &str) -> String {
-    let plain = |c: char| c.is_ascii_alphanumeric() || "-_./%+:".contains(c);
-    if word.chars().all(plain) { word.to_owned() } else { format!("'{}'", word.replace('\'', "'\\''")) }
 }

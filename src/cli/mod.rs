@@ -35,6 +35,7 @@ mod load;
 mod progress;
 mod run;
 mod scenes;
+mod shell;
 mod solves;
 mod stability;
 mod stdout;

@@ -56,6 +56,11 @@ impl Camera {
         camera
     }
 
+    /// Its projection, as the key of that name has it.
+    #[must_use]
+    pub fn projection(&self) -> &'static str {
+        if self.distance > 0.0 { "perspective" } else { "orthographic" }
+    }
     /// The same view of an extent larger by a factor.
     #[must_use]
     pub fn wider(self, factor: f64) -> Self {

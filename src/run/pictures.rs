@@ -175,10 +175,9 @@ impl Pictures {
     /// Frames all particles from the direction of a camera.
     pub fn aim(&mut self, camera: &Camera) {
         self.unframed = None;
-        let projection = if camera.distance > 0.0 { "perspective" } else { "orthographic" };
         self.set("eye", camera.back.into());
         self.set("up", camera.up.into());
-        self.set("projection", projection.into());
+        self.set("projection", camera.projection().into());
         self.set("auto_frame", true.into());
     }
     /// The trails.

@@ -38,10 +38,9 @@ impl<B: Backend> Stage<B> {
         let frame = &self.picture().frame;
         let camera = &frame.camera;
         if self.moved() || self.aimed() {
-            let projection = if camera.distance > 0.0 { "perspective" } else { "orthographic" };
             picture("eye", &camera.back.into());
             picture("up", &camera.up.into());
-            picture("projection", &projection.into());
+            picture("projection", &camera.projection().into());
             picture("auto_frame", &(!self.moved()).into());
         }
         if self.moved() {

@@ -197,6 +197,20 @@ fn colors<B: Backend>(view: &mut View<B>, ui: &mut Ui) {
     });
 }
 
+/// A slider of a number of the picture.
+fn number<B: Backend>(
+    view: &mut View<B>,
+    ui: &mut Ui,
+    key: &'static str,
+    about: &str,
+    slider: impl FnOnce(&mut f64) -> Slider<'_>,
+) {
+    let mut value = view.stage.number(key);
+    if ui.add(slider(&mut value).text(key)).on_hover_text(about).changed() {
+        view.actions.push(Action::Picture { key, value: value.into() });
+    }
+}
+
 fn looks<B: Backend>(view: &mut View<B>, ui: &mut Ui) {
     colors(view, ui);
     for name in ["style", "background", "draw"] {
@@ -215,26 +229,19 @@ fn looks<B: Backend>(view: &mut View<B>, ui: &mut Ui) {
             list.response.labelled_by(label.id);
         });
     }
-    let mut size = view.stage.number("size");
-    let slider = Slider::new(&mut size, 0.1..=20.0).logarithmic(true).max_decimals(2).text("size");
-    if ui.add(slider).on_hover_text("how large particles are drawn, as a multiple of what they are").changed() {
-        view.actions.push(Action::Picture { key: "size", value: size.into() });
-    }
-    let mut tail = view.stage.number("tail");
-    let slider = Slider::new(&mut tail, 0.0..=200.0 * view.stage.dt()).max_decimals(6).text("tail");
-    if ui.add(slider).on_hover_text("a streak from where each particle was so long ago").changed() {
-        view.actions.push(Action::Picture { key: "tail", value: Value::Number(tail) });
-    }
-    let mut exposure = view.stage.number("exposure");
-    let slider = Slider::new(&mut exposure, 0.05..=20.0).logarithmic(true).max_decimals(2).text("exposure");
-    if ui.add(slider).changed() {
-        view.actions.push(Action::Picture { key: "exposure", value: Value::Number(exposure) });
-    }
-    let mut bloom = view.stage.number("bloom");
-    let slider = Slider::new(&mut bloom, 0.0..=5.0).max_decimals(2).text("bloom");
-    if ui.add(slider).on_hover_text("how bright the bloom around lights is, as a multiple of the usual").changed() {
-        view.actions.push(Action::Picture { key: "bloom", value: Value::Number(bloom) });
-    }
+    let tail = 200.0 * view.stage.dt();
+    number(view, ui, "size", "how large particles are drawn, as a multiple of what they are", |x| {
+        Slider::new(x, 0.1..=20.0).logarithmic(true).max_decimals(2)
+    });
+    number(view, ui, "tail", "a streak from where each particle was so long ago", |x| {
+        Slider::new(x, 0.0..=tail).max_decimals(6)
+    });
+    number(view, ui, "exposure", "brightness of lights, as a multiple of the automatic one", |x| {
+        Slider::new(x, 0.05..=20.0).logarithmic(true).max_decimals(2)
+    });
+    number(view, ui, "bloom", "how bright the bloom around lights is, as a multiple of the usual", |x| {
+        Slider::new(x, 0.0..=5.0).max_decimals(2)
+    });
     let mut notes = view.stage.picture().annotated();
     let about = "box, axes and a bar of length over the picture, and in those that are saved";
     if ui.checkbox(&mut notes, "annotate").on_hover_text(about).changed() {

@@ -41,6 +41,9 @@ use tool::{Hand, Tool};
 /// Makes a simulation of a setup on the shell's device.
 pub type Make<B> = Box<dyn Fn(&Setup) -> Result<Simulation<B>, Error>>;
 
+/// Makes a text for the clipboard of what was changed by hand, in the form of `--set`.
+pub type Command = Box<dyn Fn(&[String]) -> String>;
+
 /// The field with the pixels of the picture.
 pub const PICTURE: Field<u32> = PIXELS;
 
@@ -80,8 +83,8 @@ pub struct View<B: Backend> {
     fault: Option<String>,
     taken: VecDeque<Taken>,
     recording: Option<Recording>,
-    /// The command that opens the scene, and a text for the clipboard.
-    command: String,
+    /// The command of a scene with changes, and a text for the clipboard.
+    command: Command,
     copied: Option<String>,
     /// The scene that the shell is asked to open.
     wanted: Option<String>,
@@ -114,7 +117,7 @@ impl<B: Backend> View<B> {
             fault: None,
             taken: VecDeque::new(),
             recording: None,
-            command: format!("motes view {}", scene.name),
+            command: Box::new(|changes| changes.join("\n")),
             copied: None,
             wanted: None,
             shown: false,
@@ -139,9 +142,9 @@ impl<B: Backend> View<B> {
         let words = self.stage.simulation.backend().read(PICTURE.name, &Array::Uint(Vec::new()), area).await?;
         Ok(u32::view(&words).into_iter().flatten().flat_map(|word| word.to_le_bytes()).collect())
     }
-    /// The command that opens this scene, to which what was changed by hand is added when it is copied.
-    pub fn opened_by(&mut self, command: impl Into<String>) {
-        self.command = command.into();
+    /// What is copied of changes by hand: the command that opens this scene with them. Without this it is a list of them.
+    pub fn opened_by(&mut self, command: Command) {
+        self.command = command;
     }
     /// Shows pictures of the scenes that come with motes, from a [contact sheet](gallery).
     pub fn contact(&mut self, sheet: TextureId) {
@@ -426,13 +429,12 @@ impl<B: Backend> View<B> {
     /// Copies what was changed, as arguments of the command.
     fn copy(&mut self) {
         let changes = self.stage.changes();
-        let values: Vec<String> = changes.iter().map(|value| format!(" --set {}", quoted(value))).collect();
         let what = match changes.len() {
             0 => "nothing was changed: the command".to_owned(),
             1 => "the command with the value that was changed".to_owned(),
             many => format!("the command with the {many} values that were changed"),
         };
-        self.copied = Some(format!("{}{}", self.command, values.concat()));
+        self.copied = Some((self.command)(&changes));
         self.say(format!("{what} is on the clipboard"));
     }
     fn restarted(&mut self) {
@@ -447,28 +449,5 @@ impl<B: Backend> View<B> {
     fn is_flat(&self) -> bool {
         let bounds = self.stage.simulation.setup().bounds;
         bounds.dimensions == 2 && self.stage.picture().frame.camera.back.z > 0.999
-    }
-}
-
-/// A word of a shell.
-#[must_use]
-pub fn quoted(word: &str) -> String {
-    let plain = |c: char| c.is_ascii_alphanumeric() || "_-./=:,+".contains(c);
-    if !word.is_empty() && word.chars().all(plain) {
-        word.to_owned()
-    } else {
-        format!("'{}'", word.replace('\'', r"'\''"))
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::quoted;
-
-    #[test]
-    fn words_of_a_shell_are_quoted_where_they_need_it() {
-        assert_eq!(quoted("force.0.softening=0.1"), "force.0.softening=0.1");
-        assert_eq!(quoted("picture.eye=[1, 0, 0]"), "'picture.eye=[1, 0, 0]'");
-        assert_eq!([quoted("it's"), quoted("")], [r"'it'\''s'", "''"]);
     }
 }

@@ -49,6 +49,11 @@ fn words(value: &Value) -> String {
     }
 }
 
+/// The change of a number that is dragged by a point.
+fn speed(of: f64) -> f64 {
+    0.005 * if of == 0.0 { 1.0 } else { of.abs() }
+}
+
 /// The ends of a slider, and whether it is logarithmic.
 pub fn range(kind: Kind, scene: f64) -> (f64, f64, bool) {
     let size = if scene == 0.0 { 1.0 } else { scene.abs() };
@@ -69,7 +74,7 @@ fn control(ui: &mut Ui, now: &Setting<'_>, scene: &Value, label: &egui::Response
             let (low, high, logarithmic) = range(kind, *start);
             let mut value = *x;
             let mut slider = Slider::new(&mut value, low..=high).clamping(SliderClamping::Never);
-            let speed = 0.005 * if *start == 0.0 { 1.0 } else { start.abs() };
+            let speed = speed(*start);
             slider = if kind.is_whole() { slider.step_by(1.0) } else { slider.max_decimals(6).drag_value_speed(speed) };
             if logarithmic {
                 slider = slider.logarithmic(true).smallest_positive(high / REACH.powi(3));
@@ -148,7 +153,7 @@ fn pairs(ui: &mut Ui, rows: &[Pair], label: &egui::Response) -> Option<Value> {
             let [a, b] = row.species;
             ui.label(format!("{a}, {b}"));
             for (_, x) in &mut row.values {
-                let speed = 0.005 * if *x == 0.0 { 1.0 } else { x.abs() };
+                let speed = speed(*x);
                 changed |= ui.add(DragValue::new(x).speed(speed).max_decimals(6)).labelled_by(label.id).changed();
             }
             ui.end_row();

@@ -233,18 +233,23 @@ const tests = {
   async "what was edited is not lost: by the way back, by the gallery, and when the page is loaded again"() {
     const page = await visit("scene=galaxy&scale=0.02&paused=1");
     await runs(page, "galaxy");
+    const title = (words) => until(page, (words) => document.getElementById("title").textContent === words, words);
+    /** Runs a text, opens another scene, and goes back to the text. */
+    const and_back = async (text, words) => {
+      await page.fill("#text", text);
+      await page.press("#text", "Control+Enter");
+      await title(words);
+      await page.evaluate(() => { location.hash = "#scene=throw&paused=1"; });
+      await runs(page, "throw");
+      await page.goBack();
+      await title(words);
+      assert.equal(await page.inputValue("#text"), text);
+    };
     await page.click("#edit");
     const edited = "# Four stones.\n[simulation]\ndt = 0.01\nsteps = 10\n[[particles]]\nshape = \"sphere\"\ncount = 4\n";
     await page.evaluate(() => { location.hash = "#scene=kepler&paused=1"; });
     await runs(page, "kepler");
-    await page.fill("#text", edited);
-    await page.press("#text", "Control+Enter");
-    await until(page, () => document.getElementById("title").textContent === "kepler: Four stones.");
-    await page.evaluate(() => { location.hash = "#scene=throw&paused=1"; });
-    await runs(page, "throw");
-    await page.goBack();
-    await until(page, () => document.getElementById("title").textContent === "kepler: Four stones.");
-    assert.equal(await page.inputValue("#text"), edited);
+    await and_back(edited, "kepler: Four stones.");
     await page.goBack();
     await until(page, () => document.getElementById("title").textContent.startsWith("kepler: Two bodies"));
     // Text that was never run, in a new visit.
@@ -254,22 +259,15 @@ const tests = {
     await page.click("#scenes");
     assert.match(await page.textContent(".card"), /kepler, as you edited it last\s*Five stones/);
     await page.click(".card");
-    await until(page, () => document.getElementById("title").textContent === "kepler: Five stones.");
+    await title("kepler: Five stones.");
     // The way back leads to this one, whatever is edited later; also to a text that is too long for a link.
     const noise = Array.from({ length: 4000 }, (_, i) => Math.imul(i, 2654435761) >>> 0).join(" ");
     const long = `${edited.replace("Four", "Six")}# ${noise}\n`;
     await page.click("#edit");
-    await page.fill("#text", long);
-    await page.press("#text", "Control+Enter");
-    await until(page, () => document.getElementById("title").textContent === "kepler: Six stones.");
-    await page.evaluate(() => { location.hash = "#scene=throw&paused=1"; });
-    await runs(page, "throw");
-    await page.goBack();
-    await until(page, () => document.getElementById("title").textContent === "kepler: Six stones.");
-    assert.equal(await page.inputValue("#text"), long);
+    await and_back(long, "kepler: Six stones.");
     await copied(page, "too long for a link");
     await page.goBack();
-    await until(page, () => document.getElementById("title").textContent === "kepler: Five stones.");
+    await title("kepler: Five stones.");
     await page.close();
   },
   async "a link carries what was changed by hand"() {

@@ -103,20 +103,15 @@ impl Hand {
     }
     /// Presses a key, and releases it.
     pub fn key(&mut self, key: Key, modifiers: Modifiers) {
-        for pressed in [true, false] {
-            self.frame(vec![Event::Key { key, physical_key: None, pressed, repeat: false, modifiers }]);
-        }
+        self.press(&[key], modifiers);
     }
     /// Presses keys in one frame, and releases them in the next.
     pub fn keys(&mut self, keys: &[Key]) {
+        self.press(keys, Modifiers::NONE);
+    }
+    fn press(&mut self, keys: &[Key], modifiers: Modifiers) {
         for pressed in [true, false] {
-            let one = |key: &Key| Event::Key {
-                key: *key,
-                physical_key: None,
-                pressed,
-                repeat: false,
-                modifiers: Modifiers::NONE,
-            };
+            let one = |key: &Key| Event::Key { key: *key, physical_key: None, pressed, repeat: false, modifiers };
             self.frame(keys.iter().map(one).collect());
         }
     }

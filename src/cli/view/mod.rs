@@ -91,9 +91,10 @@ impl Origin {
         }
     }
     /// The command that opens it with the arguments. Files beside it are left out: a command has none.
-    fn command(&self, args: &ViewArgs) -> String {
+    fn command(&self, args: &ViewArgs) -> motes::view::Command {
+        use super::shell::quoted;
         use motes::scene::Source;
-        use motes::view::quoted;
+        let set = |value: &String| format!(" --set {}", quoted(value));
         let name = match &self.source {
             Source::File(path) => path.display().to_string(),
             Source::Builtin(scene) => scene.name.to_owned(),
@@ -102,9 +103,12 @@ impl Origin {
         let mut words = format!("motes view {}", quoted(&name));
         if self.own {
             words.extend(args.scale.map(|factor| format!(" --scale {factor}")));
-            words.extend(args.overrides.iter().map(|value| format!(" --set {}", quoted(value))));
+            words.extend(args.overrides.iter().map(set));
         }
-        if args.allow_outside { words + " --allow-outside" } else { words }
+        if args.allow_outside {
+            words += " --allow-outside";
+        }
+        Box::new(move |changes| changes.iter().fold(words.clone(), |all, value| all + &set(value)))
     }
     /// The same with a file beside it, after those before.
     fn with(&self, file: &str) -> Self {

@@ -8,7 +8,7 @@ use std::time::{Instant, SystemTime};
 use egui::{ColorImage, Context, TextureHandle, TextureOptions, ViewportId};
 use egui_winit::winit;
 use motes::gpu::{Choice, Controls, Found, Window as Surface};
-use motes::view::{PICTURE, Taken, View};
+use motes::view::{Command, PICTURE, Taken, View};
 use motes::{Error, Gpu, Simulation};
 use pollster::block_on;
 use winit::application::ApplicationHandler;
@@ -19,6 +19,7 @@ use winit::window::{Window, WindowId};
 
 use super::super::args::ViewArgs;
 use super::super::failure::Failure;
+use super::super::load::Loaded;
 use super::Origin;
 use super::files::{Files, LOOK};
 
@@ -131,10 +132,8 @@ impl Shell {
         let context = Context::default();
         let input = egui_winit::State::new(context.clone(), ViewportId::ROOT, &window, None, window.theme(), None);
         let files = Files::of(&files, begun);
-        let mut view = block_on(View::new(&loaded.scene, loaded.setup, make(&found)))?;
         let contact = context.load_texture("scenes", contact()?, TextureOptions::LINEAR);
-        view.contact(contact.id());
-        view.opened_by(origin.command(args));
+        let view = block_on(watched(loaded, &found, &contact, origin.command(args)))?;
         window.request_redraw();
         Ok(Self { window, surface, found, context, input, view, contact, files, origin, faulty: None, frames: 0 })
     }
@@ -153,9 +152,7 @@ impl Shell {
             let origin = tried.insert(origin?);
             let loaded = super::load(args, origin, &mut files).await?;
             let title = loaded.scene.name.clone();
-            let mut view = View::new(&loaded.scene, loaded.setup, make(&self.found)).await?;
-            view.contact(self.contact.id());
-            view.opened_by(origin.command(args));
+            let mut view = watched(loaded, &self.found, &self.contact, origin.command(args)).await?;
             if origin.is_of(&self.origin) {
                 view.follow(&self.view);
             }
@@ -251,10 +248,14 @@ fn contact() -> Result<ColorImage, Error> {
     Ok(ColorImage::from_rgb([wide, high], &rgb))
 }
 
-/// Makes simulations on a device.
-fn make(found: &Found) -> motes::view::Make<Gpu> {
+/// A view of a scene on a device, with pictures of the others.
+async fn watched(loaded: Loaded, found: &Found, contact: &TextureHandle, command: Command) -> Result<View<Gpu>, Error> {
     let (device, queue) = (found.device.clone(), found.queue.clone());
-    Box::new(move |setup| Simulation::new(&device, &queue, setup))
+    let make = Box::new(move |setup: &_| Simulation::new(&device, &queue, setup));
+    let mut view = View::new(&loaded.scene, loaded.setup, make).await?;
+    view.contact(contact.id());
+    view.opened_by(command);
+    Ok(view)
 }
 
 /// Saves all that was taken.
