@@ -100,7 +100,7 @@ impl Viewer {
     }
     /// Whether nothing moves, so that no frame is due.
     pub fn rests(&self) -> bool {
-        self.view.as_ref().is_none_or(View::is_paused)
+        self.view.as_ref().is_none_or(View::rests)
     }
     /// The name of the scene, the step, and what is said.
     pub fn status(&mut self) -> (String, u64, String) {

@@ -127,6 +127,10 @@ pub struct ViewArgs {
     /// Multiply the number of particles of every shape and emitter by this factor; fluids get another spacing
     #[arg(long, value_name = "FACTOR", value_parser = positive)]
     pub scale: Option<f64>,
+    /// Put a file beside the scene, as if it were dropped on the window: particles or a floor plan in the place of its own, or a law as
+    /// one more force; may be repeated
+    #[arg(long, value_name = "FILE")]
+    pub beside: Vec<String>,
     /// Let the scene name files outside of its own folder
     #[arg(long)]
     pub allow_outside: bool,

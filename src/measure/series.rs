@@ -7,7 +7,7 @@ use std::sync::Arc;
 use crate::error::Error;
 use crate::kernel::Bounds;
 use crate::links::Links;
-use crate::simulation::Clock;
+use crate::simulation::{Clock, Setup};
 use crate::state::State;
 
 /// The state of an output, with further data.
@@ -54,6 +54,13 @@ pub trait Series: Any + Debug + Send + Sync {
     /// What it reads beside the state.
     fn needs(&self) -> Needs {
         Needs::default()
+    }
+    /// Forces were [set](crate::Simulation::set): goes on with those of this setup, which has no state.
+    ///
+    /// # Errors
+    /// [`Error::Scene`] when they are none that it measures.
+    fn follow(&mut self, _setup: &Setup) -> Result<(), Error> {
+        Ok(())
     }
     /// A line for the end of a run.
     fn summary(&self) -> Option<String> {

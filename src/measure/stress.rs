@@ -208,4 +208,8 @@ impl Series for Stress {
         Ok((0..slabs.count()).map(|number| Self::row(&sums, &slabs, number)).collect())
     }
     fn recall(&mut self, _: u64, _: &[&str]) {}
+    fn follow(&mut self, setup: &Setup) -> Result<(), Error> {
+        self.forces = contacts(setup)?;
+        Ok(())
+    }
 }

@@ -51,6 +51,11 @@ impl Exposure {
         let between = |a: f64, b: f64| a.powf(1.0 - part) * b.powf(part);
         Self { knee: between(self.knee, other.knee), white: between(self.white, other.white) }
     }
+    /// By how much another exposure is brighter or darker \[f-stops\].
+    #[must_use]
+    pub fn stops_from(self, other: Self) -> f64 {
+        (self.white / other.white).log2().abs().max((self.knee / other.knee).log2().abs())
+    }
     /// How much darker ink is than light would be light. Where birds are alone each is to be seen; where many are on one pixel, how
     /// many.
     pub(super) fn body(&self, frame: &Frame) -> f64 {

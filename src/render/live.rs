@@ -17,6 +17,8 @@ pub struct Live {
     /// The picture. Its number of particles is that of the simulation.
     pub picture: Picture,
     exposure: Option<Exposure>,
+    /// Whether the last one had its own exposure, within a hundredth of an f-stop.
+    settled: bool,
     /// The sizes of the fields of the last one.
     fields: BTreeMap<String, u64>,
 }
@@ -25,12 +27,17 @@ impl Live {
     /// Pictures that begin with this one.
     #[must_use]
     pub fn new(picture: Picture) -> Self {
-        Self { picture, exposure: None, fields: BTreeMap::new() }
+        Self { picture, exposure: None, settled: false, fields: BTreeMap::new() }
     }
     /// Goes on with another picture, at its own exposure.
     pub fn change(&mut self, picture: Picture) {
         self.picture = picture;
         self.exposure = None;
+    }
+    /// Whether the last picture had its own exposure, so that another one of the same state would be the same.
+    #[must_use]
+    pub fn is_settled(&self) -> bool {
+        self.settled
     }
     /// Draws the current state into the field [`PIXELS`](super::PIXELS): a word for each pixel, red first, row by row from the top.
     ///
@@ -42,8 +49,12 @@ impl Live {
             FIELDS.iter().for_each(|field| backend.forget(field));
             self.fields = fields;
         }
-        let last = &mut self.exposure;
-        let follow = |metered: Exposure| *last.insert(last.map_or(metered, |last| last.toward(metered, FOLLOW)));
+        let (last, settled) = (&mut self.exposure, &mut self.settled);
+        let follow = |metered: Exposure| {
+            let now = *last.insert(last.map_or(metered, |last| last.toward(metered, FOLLOW)));
+            *settled = now.stops_from(metered) < 0.01;
+            now
+        };
         on_device(backend, &self.picture, follow).await
     }
 }

@@ -2,7 +2,7 @@
 
 use crate::forces;
 use crate::settings::{Key, Value};
-use crate::shapes::SHAPES;
+use crate::shapes::{SHAPES, emitter};
 use crate::state::State;
 
 use super::emitter::EMITTER_KEYS;
@@ -51,14 +51,30 @@ pub(super) fn completed(table: &Table<'_>, keys: &[Key], said: &[Entry]) -> Vec<
     table.entries.iter().chain(said.iter().filter(left_out)).cloned().collect()
 }
 
+fn shape_keys(table: &Table<'_>) -> Option<&'static [Key]> {
+    kind(table, "shape", |name| SHAPES.iter().find(|s| s.name == name).map(|s| s.keys))
+}
+
+/// The keys of shapes and emitters that leave them to the force of the fluid, as overrides name them: `particles.0.density`.
+pub(super) fn left<'a>(sections: &'a [(&'static str, Table<'a>)]) -> Vec<String> {
+    let all = |name: &'static str| sections.iter().filter(move |(n, _)| *n == name).map(|(_, table)| table).enumerate();
+    let shapes = all("particles").filter_map(|(place, table)| Some((place, "particles", table, shape_keys(table)?)));
+    let emitters = all("emitter").filter(|(_, table)| table.get(emitter::SPRAY).is_none());
+    let emitters = emitters.map(|(place, table)| (place, "emitter", table, EMITTER_KEYS));
+    let out = |key: &&'static str, table: &Table<'_>| table.get(key).is_none();
+    let named = shapes.chain(emitters).flat_map(|(place, section, table, keys)| {
+        shared(keys).filter(move |key| out(key, table)).map(move |key| format!("{section}.{place}.{key}"))
+    });
+    named.collect()
+}
+
 /// The contradictions between shapes or emitters and the first force `fluid`.
 pub(super) fn contradictions<'a>(sections: &'a [(&'static str, Table<'a>)]) -> Vec<String> {
     let all = |name: &'static str| sections.iter().filter(move |(n, _)| *n == name).map(|(_, table)| table);
     let Some((force, keys)) = all("force").find_map(|table| Some((table, force_keys(table)?))) else {
         return Vec::new();
     };
-    let of_shape = |table| kind(table, "shape", |name| SHAPES.iter().find(|s| s.name == name).map(|s| s.keys));
-    let shapes = all("particles").filter_map(|table| Some((table, of_shape(table)?)));
+    let shapes = all("particles").filter_map(|table| Some((table, shape_keys(table)?)));
     let mut remarks = Vec::new();
     for (table, own) in shapes.chain(all("emitter").map(|table| (table, EMITTER_KEYS))) {
         for name in shared(own) {

@@ -135,6 +135,9 @@ pub struct Scene {
     pub files: Vec<PathBuf>,
     /// Remarks on a valid scene, for instance that `until` is not a whole number of steps.
     pub remarks: Vec<String>,
+    /// The keys of particles and emitters that have their values from the force of the fluid, in the form of overrides:
+    /// `particles.0.density`.
+    pub of_fluid: Vec<String>,
 }
 
 /// Particles that came from one entry of the scene, or one part of them.
@@ -397,6 +400,7 @@ fn read(sections: &[(&'static str, Table<'_>)], files: &Files, options: &Options
         resolved: out.0,
         files: Vec::new(),
         remarks,
+        of_fluid: fluid::left(sections),
     };
     if report.len() == 0 {
         measure::check(&mut scene, &of_measures, report);

@@ -16,11 +16,15 @@ impl<B: Backend> Stage<B> {
         let mut changes = Vec::new();
         let start = self.start.forces.iter().map(|force| Component::settings(&**force));
         for (place, ((_, now), before)) in self.simulation.settings().iter().zip(start).enumerate() {
-            let others = now.iter().zip(&before).filter(|(now, before)| now.value != before.value);
-            changes.extend(others.map(|(now, _)| {
+            let makes_fluid = self.start.forces.get(place).is_some_and(|force| force.properties().makes_fluid);
+            for (now, before) in now.iter().zip(&before).filter(|(now, before)| now.value != before.value) {
                 let table = now.table.map_or(String::new(), |table| format!("{table}."));
-                format!("force.{place}.{table}{}={}", now.name, written(now.kind, now.value))
-            }));
+                changes.push(format!("force.{place}.{table}{}={}", now.name, written(now.kind, now.value)));
+                // Particles that took it from the fluid are as they were.
+                let of_it = |path: &&String| makes_fluid && path.rsplit('.').next() == Some(now.name);
+                let same = |path: &String| format!("{path}={}", written(before.kind, before.value));
+                changes.extend(self.of_fluid.iter().filter(of_it).map(same));
+            }
         }
         let mut picture = |name: &str, value: &Value| {
             let kind = KEYS.iter().find(|key| key.name == name).map(|key| key.kind);

@@ -88,7 +88,9 @@ pub struct View<B: Backend> {
     copied: Option<String>,
     /// The scene that the shell is asked to open.
     wanted: Option<String>,
+    /// Whether there is a picture, and whether the state is still that of it.
     shown: bool,
+    drawn: bool,
 }
 
 impl<B: Backend> View<B> {
@@ -121,9 +123,10 @@ impl<B: Backend> View<B> {
             copied: None,
             wanted: None,
             shown: false,
+            drawn: false,
         })
     }
-    /// The simulation, whose field [`PICTURE`] holds the last picture.
+    /// The simulation, whose field [`PICTURE`] holds the last picture. What is written to it while the run stands still is drawn after the next input.
     pub fn simulation(&mut self) -> &mut Simulation<B> {
         &mut self.stage.simulation
     }
@@ -170,10 +173,16 @@ impl<B: Backend> View<B> {
     pub fn times(&self) -> [Option<f64>; 2] {
         [self.pace.step, self.pace.picture]
     }
-    /// Whether the run stands still, so that nothing need be drawn until there is input.
+    /// Whether the run stands still.
     #[must_use]
     pub fn is_paused(&self) -> bool {
         self.paused
+    }
+    /// Whether it stands still and the picture shows it, so that nothing need be drawn until there is input.
+    #[must_use]
+    pub fn rests(&self) -> bool {
+        let (size, smooth) = self.due();
+        self.paused && self.drawn && self.stage.shows(size, smooth)
     }
     /// What is said to the user, if anything: what was said last, or else why the run has stopped.
     #[must_use]
@@ -228,6 +237,7 @@ impl<B: Backend> View<B> {
     /// When the device is lost, out of memory or does not answer in time.
     pub async fn advance(&mut self) -> Result<(), Error> {
         for action in std::mem::take(&mut self.actions) {
+            self.drawn = false;
             if let Err(error) = self.act(action).await {
                 self.refuse(error)?;
             }
@@ -244,16 +254,31 @@ impl<B: Backend> View<B> {
         if let Err(error) = self.find().await {
             self.refuse(error)?;
         }
-        let begun = Instant::now();
-        let size = self.recording.as_ref().map_or(self.size, |recording| recording.size);
-        match self.stage.draw(size, self.paused || self.recording.is_some()).await {
-            Ok(()) => self.pace.drawn(begun.elapsed()),
-            Err(error) => self.refuse(error)?,
-        }
+        self.draw().await?;
         if let Err(error) = self.record().await {
             self.refuse(error)?;
         }
         self.shown = true;
+        Ok(())
+    }
+    /// The size of the picture that is to be seen, and whether it is smooth.
+    fn due(&self) -> ([u32; 2], bool) {
+        self.recording.as_ref().map_or((self.size, self.paused), |recording| (recording.size, true))
+    }
+    /// Draws the picture, unless there is one of what there is.
+    async fn draw(&mut self) -> Result<(), Error> {
+        let (size, smooth) = self.due();
+        if self.drawn && self.stage.shows(size, smooth) {
+            return Ok(());
+        }
+        let begun = Instant::now();
+        match self.stage.draw(size, smooth).await {
+            Ok(()) => {
+                self.pace.drawn(begun.elapsed());
+                self.drawn = true;
+            }
+            Err(error) => self.refuse(error)?,
+        }
         Ok(())
     }
     /// Finds the chosen particle again, and goes with it.
@@ -330,6 +355,7 @@ impl<B: Backend> View<B> {
     /// What stops the run, and when the device is lost, out of memory or does not answer in time.
     pub async fn step(&mut self, steps: u32) -> Result<(), Error> {
         let begun = Instant::now();
+        self.drawn = false;
         self.stage.advance(steps).await?;
         self.pace.stepped(steps, begun.elapsed());
         if self.plots.is_due() {
@@ -371,6 +397,7 @@ impl<B: Backend> View<B> {
                 if let Some(text) = self.stage.set(&force, &setting, value).await? {
                     self.message = text;
                 }
+                self.plots.follow(self.stage.simulation.setup())?;
             }
             Action::Picture { key, value } => self.stage.look(key, value).await?,
             Action::Orbit { across, up } => self.stage.camera(|camera| orbit::turned(camera, across, up)),
@@ -438,7 +465,7 @@ impl<B: Backend> View<B> {
         self.say(format!("{what} is on the clipboard"));
     }
     fn restarted(&mut self) {
-        self.plots.restarted(&self.stage.start);
+        self.plots.restarted(self.stage.simulation.setup());
         self.chosen.iter_mut().for_each(Chosen::restarted);
         self.message.clear();
         if self.fault.take().is_some() {

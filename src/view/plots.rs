@@ -21,6 +21,10 @@ const KEPT: usize = 1024;
 /// A measure, its rows, and which of its cells are plotted.
 struct Plotted {
     measure: &'static Measure,
+    /// Its header: its name, with a number where the scene has several of a kind.
+    title: String,
+    /// Whether its settings are those of the scene, or follow from the forces.
+    given: bool,
     settings: Settings,
     series: Box<dyn Series>,
     shown: Vec<bool>,
@@ -45,22 +49,41 @@ impl Plots {
     pub fn new(setup: &Setup, chosen: &[Chosen]) -> Result<Self, Error> {
         let mut all = Vec::new();
         for measure in MEASURES {
-            let given = chosen.iter().find(|one| one.measure == measure).map(|one| one.settings.clone());
-            let defaults = Some(Settings::defaults(measure.keys)).filter(|all| all.fault(measure.keys).is_none());
-            let Some(settings) = given.or((measure.usual)(setup)?).or(defaults) else { continue };
-            // A measure may have no use in this run; of a table with several rows there is no plot.
-            all.extend(Plotted::new(measure, settings, setup));
+            let given: Vec<_> = chosen.iter().filter(|one| one.measure == measure).collect();
+            for (number, one) in given.iter().enumerate() {
+                let title =
+                    if given.len() > 1 { format!("{} {}", measure.name, number + 1) } else { measure.name.to_owned() };
+                all.extend(Plotted::new(measure, one.settings.clone(), setup).map(|one| Plotted {
+                    title,
+                    given: true,
+                    ..one
+                }));
+            }
+            if given.is_empty() {
+                // A measure may have no use in this run; of a table with several rows there is no plot.
+                all.extend(usual(measure, setup)?.and_then(|settings| Plotted::new(measure, settings, setup)));
+            }
         }
         Ok(Self { all, times: Seldom::default() })
     }
     /// The same, which begins again.
     pub fn restarted(&mut self, setup: &Setup) {
+        self.all.iter_mut().for_each(|one| one.restarted(one.settings.clone(), setup));
+        self.times = Seldom::default();
+    }
+    /// Goes on with forces that were changed: measures with settings that follow from forces begin again where these differ.
+    ///
+    /// # Errors
+    /// When a measure that a run takes by default cannot be taken.
+    pub fn follow(&mut self, setup: &Setup) -> Result<(), Error> {
         for one in &mut self.all {
-            if let Some(anew) = Plotted::new(one.measure, one.settings.clone(), setup) {
-                *one = Plotted { shown: std::mem::take(&mut one.shown), open: one.open, ..anew };
+            let settings = if one.given { None } else { usual(one.measure, setup)? };
+            match settings.filter(|settings| *settings != one.settings) {
+                Some(settings) => one.restarted(settings, setup),
+                None => one.series.follow(setup)?,
             }
         }
-        self.times = Seldom::default();
+        Ok(())
     }
     /// Whether it is time for the next rows.
     pub fn is_due(&mut self) -> bool {
@@ -85,13 +108,19 @@ impl Plots {
         self.close();
         CollapsingHeader::new("Measures").default_open(false).show(ui, |ui| {
             for one in &mut self.all {
-                let title = CollapsingHeader::new(one.measure.name).default_open(one.measure.name == "energy");
+                let title = CollapsingHeader::new(&one.title).default_open(one.measure.name == "energy");
                 let response = title.show(ui, |ui| one.show(ui));
                 response.header_response.on_hover_text(one.measure.about);
                 one.open = response.body_returned.is_some();
             }
         });
     }
+}
+
+/// The settings of a measure that a scene does not name: as a run takes it, or its defaults.
+fn usual(measure: &Measure, setup: &Setup) -> Result<Option<Settings>, Error> {
+    let defaults = || Some(Settings::defaults(measure.keys)).filter(|all| all.fault(measure.keys).is_none());
+    Ok((measure.usual)(setup)?.or_else(defaults))
 }
 
 impl Plotted {
@@ -101,7 +130,15 @@ impl Plotted {
         let many = if measure.name == "energy" { 3 } else { 1 };
         let shown = (0..measure.cells.len()).map(|cell| cell < many).collect();
         let (first, rows) = (Vec::new(), VecDeque::new());
-        Some(Self { measure, settings, series, shown, first, rows, open: false, fault: None })
+        let title = measure.name.to_owned();
+        Some(Self { measure, title, given: false, settings, series, shown, first, rows, open: false, fault: None })
+    }
+    fn restarted(&mut self, settings: Settings, setup: &Setup) {
+        if let Some(anew) = Self::new(self.measure, settings, setup) {
+            self.settings = anew.settings;
+            self.series = anew.series;
+            (self.first, self.rows, self.fault) = (anew.first, anew.rows, anew.fault);
+        }
     }
     fn take(&mut self, moment: &Moment<'_>) {
         let numbers = |row: &Vec<Cell>| -> Vec<f64> {
@@ -143,7 +180,7 @@ impl Plotted {
             ui.weak("nothing is measured yet");
             return;
         };
-        Grid::new(self.measure.name).num_columns(3).striped(true).show(ui, |ui| {
+        Grid::new(&self.title).num_columns(3).striped(true).show(ui, |ui| {
             for (place, (name, about)) in self.measure.cells.iter().enumerate() {
                 let (Some(now), Some(first), Some(shown)) =
                     (last.get(place), self.first.get(place), self.shown.get_mut(place))
@@ -163,15 +200,90 @@ impl Plotted {
             }
         });
         let cells = self.measure.cells.iter().zip(&self.shown).enumerate().filter(|(_, (_, shown))| **shown);
-        Plot::new((self.measure.name, "plot")).height(150.0).legend(Legend::default()).allow_scroll(false).show(
-            ui,
-            |plot| {
-                for (place, ((name, _), _)) in cells {
-                    let points = self.rows.iter().filter_map(|(time, row)| Some([*time, *row.get(place)?]));
-                    let points: Vec<_> = points.filter(|[_, value]| value.is_finite()).collect();
-                    plot.line(Line::new(*name, points));
-                }
-            },
+        Plot::new((&self.title, "plot")).height(150.0).legend(Legend::default()).allow_scroll(false).show(ui, |plot| {
+            for (place, ((name, _), _)) in cells {
+                let points = self.rows.iter().filter_map(|(time, row)| Some([*time, *row.get(place)?]));
+                let points: Vec<_> = points.filter(|[_, value]| value.is_finite()).collect();
+                plot.line(Line::new(*name, points));
+            }
+        });
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use pollster::block_on;
+
+    use super::*;
+    use crate::measure::Energy;
+    use crate::scene::{Options, Scene, Source};
+    use crate::simulation::Simulation;
+
+    /// A scene, its simulation on the processor, and its measures.
+    fn watched(more: &str) -> (Simulation<crate::Cpu>, Plots) {
+        let text = format!(
+            "[simulation]\ndt = 0.01\nsteps = 10\n[[particles]]\nshape = \"block\"\nspacing = 0.3\nsize = [1.2, 1.2, 1.2]\n\
+             velocity = [1, 0, 0]\n[[force]]\nkind = \"boids\"\nrange = 0.5\nseparation_range = 0.2\nmax_speed = 2\n{more}"
         );
+        let source = Source::Memory { name: "scene.toml".to_owned(), text, files: Vec::new() };
+        let mut scene = Scene::load(&source, &[], &Options::default()).unwrap_or_else(|faults| panic!("{faults}"));
+        let setup = scene.setup();
+        let plots = Plots::new(&setup, &scene.measures).expect("measures");
+        let cpu = crate::Cpu::new(setup.check().expect("a setup")).expect("threads");
+        (Simulation::on(cpu, &setup).expect("a simulation"), plots)
+    }
+    fn take(plots: &mut Plots, simulation: &mut Simulation<crate::Cpu>) -> Arc<State> {
+        let state = Arc::new(block_on(simulation.snapshot()).expect("a state"));
+        plots.take(&state);
+        state
+    }
+    fn named<'a>(plots: &'a mut Plots, title: &str) -> &'a mut Plotted {
+        plots.all.iter_mut().find(|one| one.title == title).unwrap_or_else(|| panic!("no {title}"))
+    }
+
+    #[test]
+    fn what_is_looked_at_is_measured_and_nothing_else() {
+        let (mut simulation, mut plots) = watched("");
+        named(&mut plots, "flock").open = true;
+        for _ in 0..3 {
+            simulation.step(2).expect("steps");
+            let state = take(&mut plots, &mut simulation);
+            let (time, row) = named(&mut plots, "energy").rows.back().cloned().expect("a row");
+            let energy = Energy::of(&state).expect("energies");
+            assert_eq!(time, state.time);
+            assert_eq!(row[..3], [energy.kinetic, energy.potential, energy.kinetic + energy.potential]);
+        }
+        for one in &plots.all {
+            let expected = if ["energy", "flock"].contains(&one.title.as_str()) { 3 } else { 0 };
+            assert_eq!(one.rows.len(), expected, "{}: {:?}", one.title, one.fault);
+        }
+    }
+    #[test]
+    fn measures_of_one_kind_are_shown_apart() {
+        let two = "[[measure]]\nkind = \"flock\"\nrange = 0.35\n[[measure]]\nkind = \"flock\"\nrange = 0.1\n";
+        let (mut simulation, mut plots) = watched(two);
+        plots.all.iter_mut().for_each(|one| one.open = true);
+        take(&mut plots, &mut simulation);
+        let place = MEASURES.iter().find(|one| one.name == "flock").expect("flock").cells;
+        let place = place.iter().position(|(name, _)| *name == "clusters").expect("clusters");
+        let mut clusters = |title| named(&mut plots, title).rows[0].1[place];
+        let (near, alone) = (clusters("flock 1"), clusters("flock 2"));
+        assert_eq!((near, alone), (1.0, 64.0));
+    }
+    #[test]
+    fn the_usual_range_is_that_of_the_force_as_it_is() {
+        for (more, follows) in [("", true), ("[[measure]]\nkind = \"flock\"\nrange = 0.5\n", false)] {
+            let (mut simulation, mut plots) = watched(more);
+            named(&mut plots, "flock").open = true;
+            take(&mut plots, &mut simulation);
+            plots.follow(simulation.setup()).expect("the same");
+            assert_eq!(named(&mut plots, "flock").rows.len(), 1, "nothing was changed");
+            let mut forces = simulation.setup().forces.clone();
+            forces[0] = forces[0].changed("range", &0.25.into()).expect("a range");
+            plots.follow(&Setup { forces, ..simulation.setup().clone() }).expect("a range");
+            let flock = named(&mut plots, "flock");
+            let (range, rows) = if follows { (0.25, 0) } else { (0.5, 1) };
+            assert_eq!((flock.settings.number("range"), flock.rows.len()), (range, rows));
+        }
     }
 }

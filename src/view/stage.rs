@@ -39,6 +39,8 @@ pub struct Stage<B: Backend> {
     /// The picture of the scene.
     pub(super) looks: Settings,
     live: Live,
+    /// The keys of particles and emitters that had their values from the force of the fluid.
+    pub(super) of_fluid: Vec<String>,
     /// The state by which the picture was framed.
     framed: State,
     /// Whether the camera was moved by hand.
@@ -72,6 +74,7 @@ impl<B: Backend> Stage<B> {
             make,
             pictures,
             looks: scene.picture.clone(),
+            of_fluid: scene.of_fluid.clone(),
             live,
             framed,
             moved: false,
@@ -128,6 +131,12 @@ impl<B: Backend> Stage<B> {
             self.pictures.trail().push(&positions);
         }
         Ok(())
+    }
+    /// Whether the last picture was of this size, and as smooth, and another one of the same state would be the same.
+    pub fn shows(&self, [width, height]: [u32; 2], smooth: bool) -> bool {
+        let frame = &self.live.picture.frame;
+        let fine = if smooth { self.fine } else { 1 };
+        self.live.is_settled() && (frame.width, frame.height, frame.fine) == (width, height, fine)
     }
     /// Draws a picture of this size on the device \[pixels\]: with smooth edges where there is time for them.
     pub async fn draw(&mut self, [width, height]: [u32; 2], smooth: bool) -> Result<(), Error> {

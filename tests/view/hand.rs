@@ -65,6 +65,9 @@ impl Hand {
         }
         assert_eq!(self.steps(), steps);
     }
+    pub fn rests(&self) -> bool {
+        self.harness.state().rests()
+    }
     pub fn steps(&mut self) -> u64 {
         self.view().simulation().steps()
     }
@@ -118,6 +121,20 @@ impl Hand {
     fn button(&mut self, pos: Pos2, button: PointerButton, pressed: bool) {
         self.frame(vec![Event::PointerButton { pos, button, pressed, modifiers: Modifiers::NONE }]);
     }
+    /// Types a text into what has the focus, in the place of what is there, letter by letter.
+    pub fn write(&mut self, text: &str) {
+        self.key(Key::A, Modifiers::COMMAND);
+        self.key(Key::Backspace, Modifiers::NONE);
+        for letter in text.chars().map(String::from) {
+            let key = |pressed| {
+                let key = Key::from_name(&letter.to_uppercase())?;
+                Some(Event::Key { key, physical_key: None, pressed, repeat: false, modifiers: Modifiers::NONE })
+            };
+            self.frame(key(true).into_iter().chain([Event::Text(letter.clone())]).collect());
+            self.frame(key(false).into_iter().collect());
+        }
+        self.key(Key::Enter, Modifiers::NONE);
+    }
     pub fn click(&mut self, pos: Pos2) {
         self.frame(vec![Event::PointerMoved(pos)]);
         self.button(pos, PointerButton::Primary, true);
@@ -167,6 +184,10 @@ impl Hand {
     /// The names of the forces.
     pub fn forces(&mut self) -> Vec<String> {
         self.view().simulation().settings().into_iter().map(|(name, _)| name).collect()
+    }
+    pub fn masses(&mut self) -> Vec<f32> {
+        let positions = block_on(self.view().simulation().read(POSITION)).expect("positions");
+        positions.iter().map(|x| x.w).collect()
     }
     pub fn places(&mut self) -> Vec<DVec3> {
         let positions = block_on(self.view().simulation().read(POSITION)).expect("positions");

@@ -56,6 +56,37 @@ fn frames_without_a_window_show_the_run_and_the_panel() {
     assert!((0.02..0.9).contains(&panel), "the panel is not there: {panel}");
 }
 
+/// What was dropped on a window can be given to a command, and acts there: a law, or particles in the place of those of the scene.
+#[test]
+fn files_are_put_beside_a_scene() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let [law, bodies, file] = ["pull.wgsl", "bodies.csv", "view.png"].map(|name| folder.path().join(name));
+    let text = "// A spring to the middle.\nstruct Params { k: f32 }\n@group(3) @binding(0) var<uniform> params: Params;\n\
+                fn force(me: Particle) -> vec4f { return vec4f(-params.k * me.position, 0.0); }\n";
+    std::fs::write(&law, text).expect("a law");
+    std::fs::write(&bodies, "x,y,z,mass\n1,0,0,1\n-1,0,0,1\n0,1,0,1\n").expect("bodies");
+    let view = |more: &[&str]| {
+        let mut run = Command::new(BIN);
+        run.args(["view", "plummer", "--frames", "2", "--size", "640x400", "--screenshot"]).arg(&file).args(more);
+        let run = run.output().expect("the program");
+        (run.status.code(), String::from_utf8_lossy(&[run.stdout, run.stderr].concat()).into_owned())
+    };
+    let [law, bodies] = [&law, &bodies].map(|path| path.to_str().expect("a path"));
+    let few = ["--set", "particles.0.count=100"];
+    let (code, said) = view(&[&["--beside", law][..], &few, &["--set", "force.1.params.k=2"]].concat());
+    assert_eq!(code, Some(0), "{said}");
+    let (code, said) = view(&[&["--beside", law][..], &few, &["--set", "force.2.params.k=2"]].concat());
+    assert_eq!(code, Some(3), "there are two forces: {said}");
+    let (code, said) = view(&["--beside", bodies, "--beside", law, "--set", "force.1.params.k=2"]);
+    assert_eq!(code, Some(0), "{said}");
+    for more in [&few[..], &["--scale", "2"]] {
+        let (code, said) = view(&[&["--beside", bodies][..], more].concat());
+        assert!(code == Some(3) && said.contains("leave these out"), "{said}");
+    }
+    let (code, said) = view(&["--beside", "nothing.csv"]);
+    assert!(code == Some(4) && said.contains("nothing.csv"), "{code:?}: {said}");
+}
+
 #[test]
 fn screenshots_are_png_files_by_their_names() {
     let run = Command::new(BIN).args(["view", "galaxy", "--frames", "1", "--screenshot", "a.jpg"]).output();
@@ -140,6 +171,31 @@ fn keys_pause_step_and_go_back() {
     let steps = hand.steps();
     hand.key(Key::R, Modifiers::CTRL);
     assert!(hand.steps() > steps);
+}
+
+/// A picture that would be the same is not drawn again, and one that would be another is: after a step, a change, and on the way to its exposure.
+#[test]
+fn what_stands_still_is_drawn_once() {
+    let mut hand = Hand::on("plummer", &["particles.0.count=2000", "picture.style=\"glow\""]);
+    hand.frames(3);
+    assert!(!hand.rests(), "it runs");
+    let acts: [&dyn Fn(&mut Hand); 5] = [
+        &|hand| hand.key(Key::Space, Modifiers::NONE),
+        &|hand| hand.key(Key::Period, Modifiers::NONE),
+        &|hand| hand.choose("background", "paper"),
+        &|hand| hand.key(Key::Num2, Modifiers::NONE),
+        &|hand| hand.key(Key::R, Modifiers::NONE),
+    ];
+    for (number, act) in acts.into_iter().enumerate() {
+        let before = hand.picture();
+        act(&mut hand);
+        hand.frames(60);
+        assert!(hand.rests(), "after act {number}");
+        let after = hand.picture();
+        assert_ne!(before, after, "act {number} is not seen");
+        hand.frames(3);
+        assert_eq!(hand.picture(), after);
+    }
 }
 
 #[test]

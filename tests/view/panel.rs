@@ -121,6 +121,57 @@ fn tables_and_texts_are_changed_in_the_panel() {
     assert_eq!(Hand::on("salt", &all).setting("born_mayer", "pairs"), Value::Pairs(after.clone()));
 }
 
+/// A text is set when it is finished; until then its letters are no shortcuts, and what is unknown is refused.
+#[test]
+fn a_text_is_set_when_it_is_finished() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let scene = folder.path().join("bodies.toml");
+    let text = "[simulation]\ndt = 0.01\nsteps = 10\n[[motion]]\nname = \"turning\"\nkeys = [{ time = 0 }, { time = 1, turn = [0, 0, 90] }]\n\
+                [[particles]]\nbodies = [{ position = [0, 0, 2] }]\n[[particles]]\nbodies = [{ position = [1, 0, 2] }]\nfixed = \"all\"\n\
+                motion = \"turning\"\n[[force]]\nkind = \"solid\"\n";
+    std::fs::write(&scene, text).expect("a scene");
+    let mut hand = Hand::on(scene.to_str().expect("a path"), &[]);
+    hand.key(Key::Space, Modifiers::NONE);
+    hand.frames(2);
+    let steps = hand.steps();
+    let header = hand.place("solid");
+    hand.click(header);
+    hand.frames(30);
+    for (text, now) in [("upturned", ""), ("turning", "turning")] {
+        let field = hand.place_beside("motion");
+        hand.click(field);
+        hand.write(text);
+        hand.frames(2);
+        assert_eq!(hand.setting("solid", "motion"), Value::from(now), "{text}: {}", hand.message());
+        assert_eq!(hand.message().contains("upturned"), text == "upturned", "{}", hand.message());
+    }
+    assert_eq!(hand.steps(), steps, "a letter was taken for a key of the viewer");
+    assert_eq!(hand.changes(), ["force.0.motion=\"turning\""]);
+}
+
+/// The density of a fluid is one of its particles, too, where a scene is read. What is changed by hand leaves them as they are.
+#[test]
+fn a_density_that_was_changed_leaves_the_particles_of_the_scene_as_they_are() {
+    let coarse = ["force.1.spacing=0.05"];
+    let mut hand = Hand::on("dam_break_2d", &coarse);
+    hand.key(Key::Space, Modifiers::NONE);
+    hand.frames(2);
+    let header = hand.place("fluid");
+    hand.click(header);
+    hand.frames(30);
+    let place = hand.place_beside("density");
+    hand.drag(place, Vec2::new(20.0, 0.0), PointerButton::Primary);
+    hand.frames(2);
+    let changes = hand.changes();
+    assert!(changes[0].starts_with("force.1.density=") && changes.len() > 1, "{changes:?} {}", hand.message());
+    assert!(changes[1..].iter().all(|value| value.ends_with(".density=1000.0")), "{changes:?}");
+    let all: Vec<&str> = coarse.into_iter().chain(changes.iter().map(String::as_str)).collect();
+    let mut other = Hand::on("dam_break_2d", &all);
+    assert_eq!(hand.setting("fluid", "density"), other.setting("fluid", "density"));
+    assert_ne!(hand.setting("fluid", "density"), Value::Number(1000.0));
+    assert_eq!(hand.masses(), other.masses());
+}
+
 /// Measures that are looked at are taken and plotted, those of flocks too.
 #[test]
 fn measures_are_plotted_while_they_are_looked_at() {

@@ -49,23 +49,19 @@ struct Origin {
 /// Loads a scene with the arguments. Adds the files on which this depends, also where there are faults.
 #[cfg(feature = "view")]
 async fn load(args: &ViewArgs, origin: &Origin, files: &mut Vec<PathBuf>) -> Result<Loaded, Failure> {
-    use motes::scene::{Beside, Options, Source};
+    use motes::scene::{Options, Source};
     let beside: Vec<PathBuf> = origin.beside.iter().map(PathBuf::from).collect();
     files.extend_from_slice(&beside);
     if let Source::File(path) = &origin.source {
         files.extend(std::path::absolute(path));
     }
-    let replaced = origin.beside.iter().any(|file| Beside::of(file) == Some(Beside::Particles));
-    let values = args.overrides.iter().filter(|_| origin.own);
-    // Sizes and values of the scene's own particles are none of others.
-    let values = values.filter(|value| !(replaced && value.trim_start().starts_with("particles.")));
-    let scale = args.scale.filter(|_| origin.own && !replaced);
+    let (values, scale) = origin.given(args);
     let mut source = origin.source.clone();
     for file in &origin.beside {
         source = source.beside(file)?;
     }
     let options = Options { allow_outside: args.allow_outside, beside, ..Options::default() };
-    let scene = super::engine::load_scaled(&source, values.cloned().collect(), scale, &options);
+    let scene = super::engine::load_scaled(&source, values, scale, &options);
     match &scene {
         Ok(scene) => files.extend_from_slice(&scene.files),
         Err(Failure::Scene(faults)) => files.extend_from_slice(&faults.files),
@@ -78,8 +74,26 @@ async fn load(args: &ViewArgs, origin: &Origin, files: &mut Vec<PathBuf>) -> Res
 impl Origin {
     /// The scene of the arguments, or another one of this name.
     fn find(args: &ViewArgs, name: &str) -> Result<Self, Failure> {
-        let source = motes::scene::Source::find(name)?;
-        Ok(Self { source, own: name == args.scene, beside: Vec::new() })
+        let (source, own) = (motes::scene::Source::find(name)?, name == args.scene);
+        let beside = if own { args.beside.clone() } else { Vec::new() };
+        let origin = Self { source, own, beside };
+        let (values, scale) = origin.given(args);
+        if own && (values.len() < args.overrides.len() || scale != args.scale) {
+            let why = "--beside puts its particles in the place of the scene's own, to which --scale and --set particles.… \
+                       belong: leave these out, or write a scene with the file";
+            return Err(motes::Error::Scene(why.to_owned()).into());
+        }
+        Ok(origin)
+    }
+    /// The values and the factor of the arguments that are for it. Those for the scene's own particles are not for others in their place.
+    fn given(&self, args: &ViewArgs) -> (Vec<String>, Option<f64>) {
+        use motes::scene::Beside;
+        if !self.own {
+            return (Vec::new(), None);
+        }
+        let replaced = self.beside.iter().any(|file| Beside::of(file) == Some(Beside::Particles));
+        let meant = |value: &&String| !(replaced && value.trim_start().starts_with("particles."));
+        (args.overrides.iter().filter(meant).cloned().collect(), args.scale.filter(|_| !replaced))
     }
     /// Whether it is the same scene, perhaps with other files beside it.
     fn is_of(&self, other: &Self) -> bool {
@@ -90,7 +104,7 @@ impl Origin {
             _ => false,
         }
     }
-    /// The command that opens it with the arguments. Files beside it are left out: a command has none.
+    /// The command that opens it with the arguments, and with the files beside it.
     fn command(&self, args: &ViewArgs) -> motes::view::Command {
         use super::shell::quoted;
         use motes::scene::Source;
@@ -101,10 +115,10 @@ impl Origin {
             Source::Text { name, .. } | Source::Memory { name, .. } => name.clone(),
         };
         let mut words = format!("motes view {}", quoted(&name));
-        if self.own {
-            words.extend(args.scale.map(|factor| format!(" --scale {factor}")));
-            words.extend(args.overrides.iter().map(set));
-        }
+        let (values, scale) = self.given(args);
+        words.extend(scale.map(|factor| format!(" --scale {factor}")));
+        words.extend(values.iter().map(set));
+        words.extend(self.beside.iter().map(|file| format!(" --beside {}", quoted(file))));
         if args.allow_outside {
             words += " --allow-outside";
         }

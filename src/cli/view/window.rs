@@ -227,7 +227,7 @@ impl Shell {
         }
         self.surface.paint(&controls)?;
         self.frames += 1;
-        if !self.view.is_paused() || soon || self.frames < 3 {
+        if !self.view.rests() || soon || self.frames < 3 {
             self.window.request_redraw();
         }
         Ok(())

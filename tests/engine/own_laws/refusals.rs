@@ -44,9 +44,11 @@ fn refused(over: Over, wgsl: &str, words: &[&str]) {
     for word in words.iter().chain(&["l.wgsl"]) {
         assert!(error.to_string().contains(word), "`{error}` does not say `{word}`");
     }
-    // Other tests run beside this one: the time that it worked is limited, and more loosely the time that passed.
-    assert!(worked < Duration::from_secs(10), "after {worked:?} of work: {wgsl}");
-    assert!(begin.elapsed() < Duration::from_mins(1), "after {:?}: {wgsl}", begin.elapsed());
+    // A driver would work for minutes on what is refused here for its size; the longest law takes 3 s to read, and ten times as long on
+    // a processor that others use. The time that passed is limited more loosely, since other tests run beside this one.
+    let law: String = wgsl.chars().take(200).collect();
+    assert!(worked < Duration::from_secs(30), "after {worked:?} of work: {law}");
+    assert!(begin.elapsed() < Duration::from_mins(2), "after {:?}: {law}", begin.elapsed());
 }
 
 fn runs(over: Over, wgsl: &str, params: &[(&str, Value)], count: usize) {
