@@ -177,8 +177,12 @@ fn keys_pause_step_and_go_back() {
 #[test]
 fn what_stands_still_is_drawn_once() {
     let mut hand = Hand::on("plummer", &["particles.0.count=2000", "picture.style=\"glow\""]);
-    hand.frames(3);
-    assert!(!hand.rests(), "it runs");
+    // The exposure takes some twenty pictures.
+    for _ in 0..30 {
+        let before = hand.picture();
+        hand.frames(3);
+        assert!(!hand.rests() && hand.picture() != before, "it runs");
+    }
     let acts: [&dyn Fn(&mut Hand); 5] = [
         &|hand| hand.key(Key::Space, Modifiers::NONE),
         &|hand| hand.key(Key::Period, Modifiers::NONE),
@@ -196,6 +200,20 @@ fn what_stands_still_is_drawn_once() {
         hand.frames(3);
         assert_eq!(hand.picture(), after);
     }
+    // A picture that is saved has its own exposure.
+    hand.wheel(Pos2::new(250.0, 600.0), 600.0);
+    hand.frames(60);
+    assert!(hand.rests());
+    let shown = hand.picture();
+    hand.key(Key::P, Modifiers::NONE);
+    let saved = hand.taken().expect("a picture");
+    let mut reader = png::Decoder::new(std::io::Cursor::new(saved.png)).read_info().expect("a PNG");
+    let mut pixels = vec![0; reader.output_buffer_size().expect("a size")];
+    reader.next_frame(&mut pixels).expect("pixels");
+    let channels = if pixels.len() == shown.len() { 4 } else { 3 };
+    let pairs = pixels.chunks_exact(channels).zip(shown.chunks_exact(4));
+    let worst = pairs.map(|(a, b)| (0..3).map(|part| a[part].abs_diff(b[part])).max()).max();
+    assert!(worst.flatten().is_some_and(|worst| worst <= 2), "{worst:?} of 255 levels");
 }
 
 #[test]
