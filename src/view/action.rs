@@ -44,9 +44,9 @@ pub enum Action {
     Pull { across: f64, up: f64 },
     /// Pull no more.
     Release,
-    /// Place a ball.
-    Place { across: f64, up: f64, radius: f64 },
-    /// Remove the last ball.
+    /// Place a ball or a bar from a place on the picture to another.
+    Place { from: [f64; 2], to: [f64; 2] },
+    /// Remove the last of them.
     Remove,
     /// Choose the particle that is drawn at a place on the picture, or none.
     Choose { across: f64, up: f64 },

@@ -1,9 +1,9 @@
-//! What a hand adds to the forces of a scene: balls, and a trap that follows the pointer.
+//! What a hand adds to the forces of a scene: obstacles, and a trap that follows the pointer.
 
 use glam::DVec3;
 
 use super::stage::Stage;
-use super::tool;
+use super::tool::{self, Tool};
 use crate::component::{Change, Component};
 use crate::error::Error;
 use crate::forces;
@@ -13,8 +13,10 @@ use crate::simulation::Setup;
 
 /// A ball that was placed without a drag is so large \[halves of the picture's height\].
 const BALL: f64 = 0.1;
-/// The smallest one that is dragged.
+/// The shortest drag.
 const LEAST: f64 = 0.01;
+/// The radius of a bar \[halves of the picture's height\].
+const BAR: f64 = 0.03;
 
 /// The forces after those of the scene.
 #[derive(Default)]
@@ -46,8 +48,8 @@ impl<B: Backend> Stage<B> {
         let added = self.added.forces.iter().map(Option::as_deref);
         self.start.forces.iter().map(|force| Some(&**force)).chain(added).collect()
     }
-    /// The number of balls.
-    pub fn balls(&self) -> usize {
+    /// The number of obstacles.
+    pub fn obstacles(&self) -> usize {
         self.added.forces.iter().flatten().count()
     }
     /// Where a place on the picture \[halves of its height\] is, and the direction away from the eye there; in two dimensions in their plane, and across it.
@@ -115,15 +117,26 @@ impl<B: Backend> Stage<B> {
         let state = self.simulation.snapshot().await?;
         Ok(tool::usual(&state, &accelerations, weight, &self.picture().frame.camera, self.dt()))
     }
-    /// Places a ball of a radius \[halves of the picture's height\] as far away as the centre.
-    pub async fn place(&mut self, across: f64, up: f64, radius: f64) -> Result<(), Error> {
-        let (position, _) = self.ray(across, up)?;
-        let radius = self.picture().frame.camera.extent * if radius < LEAST { BALL } else { radius };
+    /// Places a ball about a place on the picture \[halves of its height\], or a bar from there, as far away as the centre.
+    pub async fn place(&mut self, tool: Tool, from: [f64; 2], to: [f64; 2]) -> Result<(), Error> {
+        let [begin, end] = [self.ray(from[0], from[1])?.0, self.ray(to[0], to[1])?.0];
+        let long = (to[0] - from[0]).hypot(to[1] - from[1]);
+        let (radius, position) = match tool {
+            Tool::Bar if long < LEAST => {
+                return Err(Error::Scene("a bar is as long as the drag that draws it".to_owned()));
+            }
+            Tool::Bar => (BAR, begin.midpoint(end)),
+            _ => (if long < LEAST { BALL } else { long }, begin),
+        };
+        let radius = self.picture().frame.camera.extent * radius;
         let snapshot = self.simulation.snapshot().await?;
         let reach = snapshot.scalar("radius").unwrap_or_default().iter().copied().fold(0.0, f64::max);
-        let settings = vec![("position", position.into()), ("radius", radius.into()), ("thickness", reach.into())];
-        let ball = made("solid", settings)?;
-        self.add(Some(ball.clone()), ball).await
+        let mut settings = vec![("position", position.into()), ("radius", radius.into()), ("thickness", reach.into())];
+        if tool == Tool::Bar {
+            settings.extend([("shape", "capsule".into()), ("axis", (end - begin).into())]);
+        }
+        let obstacle = made("solid", settings)?;
+        self.add(Some(obstacle.clone()), obstacle).await
     }
     async fn add(&mut self, shown: Option<Box<dyn Component>>, force: Box<dyn Component>) -> Result<(), Error> {
         let mut forces = self.simulation.setup().forces.clone();
@@ -133,7 +146,7 @@ impl<B: Backend> Stage<B> {
         self.surround();
         Ok(())
     }
-    /// Removes the last ball.
+    /// Removes the last obstacle.
     pub async fn remove(&mut self) -> Result<(), Error> {
         let Some(place) = self.added.forces.iter().rposition(Option::is_some) else { return Ok(()) };
         let mut forces = self.simulation.setup().forces.clone();

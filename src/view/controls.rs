@@ -84,7 +84,7 @@ fn panel<B: Backend>(view: &mut View<B>, ui: &mut Ui) {
     }
     ui.separator();
     run(view, ui);
-    tool::show(&mut view.hand, view.stage.balls(), ui, &mut view.actions);
+    tool::show(&mut view.hand, view.stage.obstacles(), ui, &mut view.actions);
     let (bad, warn) = (ui.visuals().error_fg_color, ui.visuals().warn_fg_color);
     say(view.fault.as_deref().unwrap_or_default(), bad, ui);
     say(&view.message, warn, ui);
@@ -313,7 +313,7 @@ fn picture<B: Backend>(view: &mut View<B>, ui: &mut Ui) {
     {
         let [across, up] = spot(pointer - place.center(), place);
         view.actions.push(match view.hand.tool {
-            Tool::Ball => Action::Place { across, up, radius: 0.0 },
+            tool if tool.places() => Action::Place { from: [across, up], to: [across, up] },
             _ => Action::Choose { across, up },
         });
     }
@@ -353,7 +353,7 @@ fn drag<B: Backend>(view: &mut View<B>, ui: &Ui, response: &Response, place: Rec
     }
     let at = response.interact_pointer_pos().map(|pointer| spot(pointer - place.center(), place));
     if let (Some([across, up]), true) = (at, primary && view.hand.tool != Tool::Look) {
-        if view.hand.tool == Tool::Ball {
+        if view.hand.tool.places() {
             view.hand.begun.get_or_insert([across, up]);
         } else {
             view.actions.push(Action::Pull { across, up });
@@ -372,29 +372,33 @@ fn drag<B: Backend>(view: &mut View<B>, ui: &Ui, response: &Response, place: Rec
         });
     }
     if response.drag_stopped() {
-        if let (Some([x, y]), Some([across, up])) = (view.hand.begun.take(), at) {
-            let radius = (across - x).hypot(up - y);
-            view.actions.push(Action::Place { across: x, up: y, radius });
+        if let (Some(from), Some(to)) = (view.hand.begun.take(), at) {
+            view.actions.push(Action::Place { from, to });
         }
         view.actions.push(Action::Release);
     }
     outline(view, ui, response, place);
 }
 
-/// A circle about the pointer, as far as a tool reaches.
+/// A circle about the pointer, as far as a tool reaches, or the line of a bar.
 #[expect(clippy::cast_possible_truncation, reason = "a place on the screen")]
 fn outline<B: Backend>(view: &View<B>, ui: &Ui, response: &Response, place: Rect) {
     let Some(pointer) = response.interact_pointer_pos().or(response.hover_pos()) else { return };
-    let half = 0.5 * place.height();
+    let (half, painter) = (0.5 * place.height(), ui.painter_at(place));
     let (middle, radius) = match (view.hand.tool, view.hand.begun) {
         (Tool::Pull | Tool::Push, _) => (pointer, view.hand.reach as f32 * half),
         (Tool::Ball, Some([across, up])) => {
             let middle = point([across, up], place);
             (middle, (pointer - middle).length())
         }
+        (Tool::Bar, Some(begun)) => {
+            let ends = [point(begun, place), pointer];
+            painter.line_segment(ends, Stroke::new(4.5, Color32::from_black_alpha(140)));
+            painter.line_segment(ends, Stroke::new(1.5, Color32::from_white_alpha(160)));
+            return;
+        }
         _ => return,
     };
-    let painter = ui.painter_at(place);
     painter.circle_stroke(middle, radius + 1.5, Stroke::new(1.5, Color32::from_black_alpha(140)));
     painter.circle_stroke(middle, radius, Stroke::new(1.5, Color32::from_white_alpha(160)));
 }

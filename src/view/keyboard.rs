@@ -19,7 +19,7 @@ pub const KEYS: &[(&str, &str)] = &[
     ("+ −", "closer, farther"),
     ("W A S D", "fly ahead, to the left, back, to the right; a drag then turns about the eye"),
     ("E Q", "fly up, down"),
-    ("G", "the next use of a drag: look, pull, push, place a ball"),
+    ("G", "the next use of a drag: look, pull, push, place a ball, draw a bar"),
     ("L", "the scenes"),
     ("C", "copy the command with what was changed"),
     ("P", "save a picture"),

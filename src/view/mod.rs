@@ -421,9 +421,9 @@ impl<B: Backend> View<B> {
             Action::Pull { across, up } => self.pull(across, up).await?,
             Action::Release => self.stage.release()?,
             // Escape ends a drag as well.
-            Action::Place { .. } if self.hand.tool != Tool::Ball => (),
-            Action::Place { across, up, radius } => {
-                self.stage.place(across, up, radius).await?;
+            Action::Place { .. } if !self.hand.tool.places() => (),
+            Action::Place { from, to } => {
+                self.stage.place(self.hand.tool, from, to).await?;
                 self.hand.tool = Tool::Look;
             }
             Action::Remove => self.stage.remove().await?,

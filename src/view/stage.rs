@@ -52,7 +52,7 @@ pub struct Stage<B: Backend> {
     time: f64,
     /// Samples of a pixel each way where edges are smooth.
     fine: u32,
-    /// What was added to the forces of the scene: balls, and the trap of the hand.
+    /// What was added to the forces of the scene: obstacles, and the trap of the hand.
     pub(super) added: Added,
 }
 

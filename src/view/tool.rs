@@ -17,15 +17,18 @@ pub enum Tool {
     Push,
     /// A ball is placed, as large as the drag is long.
     Ball,
+    /// A bar is placed along the drag.
+    Bar,
 }
 
 impl Tool {
     /// All of them, with their names and what they do.
-    pub const ALL: [(Self, &str, &str); 4] = [
+    pub const ALL: [(Self, &str, &str); 5] = [
         (Self::Look, "Look", "a drag turns the camera"),
         (Self::Pull, "Pull", "a drag pulls the particles near the pointer along"),
         (Self::Push, "Push", "a drag pushes the particles near the pointer away"),
         (Self::Ball, "Ball", "a drag places a ball that lets no particle in, from its middle to its edge"),
+        (Self::Bar, "Bar", "a drag draws a bar that lets no particle through, from end to end"),
     ];
     /// The one after it.
     pub fn next(self) -> Self {
@@ -37,8 +40,12 @@ impl Tool {
         match self {
             Self::Pull => Some(1.0),
             Self::Push => Some(-1.0),
-            Self::Look | Self::Ball => None,
+            Self::Look | Self::Ball | Self::Bar => None,
         }
+    }
+    /// Whether it places obstacles.
+    pub fn places(self) -> bool {
+        matches!(self, Self::Ball | Self::Bar)
     }
 }
 
@@ -49,7 +56,7 @@ pub struct Hand {
     pub reach: f64,
     /// The greatest pull, in multiples of what is usual in the run.
     pub strength: f64,
-    /// Where the drag of a ball began: across and up.
+    /// Where the drag of an obstacle began: across and up.
     pub begun: Option<[f64; 2]>,
 }
 
@@ -76,7 +83,7 @@ pub fn usual(state: &State, accelerations: &[f64], weight: f64, camera: &Camera,
 }
 
 /// The tools, and what the present one may be set to.
-pub fn show(hand: &mut Hand, balls: usize, ui: &mut Ui, actions: &mut Vec<Action>) {
+pub fn show(hand: &mut Hand, obstacles: usize, ui: &mut Ui, actions: &mut Vec<Action>) {
     ui.horizontal(|ui| {
         ui.label("drag").on_hover_text("what a drag with the left button does: G");
         for (tool, name, about) in Tool::ALL {
@@ -89,7 +96,7 @@ pub fn show(hand: &mut Hand, balls: usize, ui: &mut Ui, actions: &mut Vec<Action
         ui.add(Slider::new(&mut hand.strength, 0.05..=500.0).logarithmic(true).max_decimals(2).text("strength"))
             .on_hover_text("in multiples of the acceleration that is usual in this run");
     }
-    if balls > 0 && ui.button("Remove the last ball").clicked() {
+    if obstacles > 0 && ui.button("Remove the last obstacle").clicked() {
         actions.push(Action::Remove);
     }
 }
