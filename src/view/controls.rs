@@ -354,7 +354,10 @@ fn drag<B: Backend>(view: &mut View<B>, ui: &Ui, response: &Response, place: Rec
     let at = response.interact_pointer_pos().map(|pointer| spot(pointer - place.center(), place));
     if let (Some([across, up]), true) = (at, primary && view.hand.tool != Tool::Look) {
         if view.hand.tool.places() {
-            view.hand.begun.get_or_insert([across, up]);
+            // It is a drag when the pointer has moved a little from where it was pressed.
+            let pressed = ui.input(|input| input.pointer.press_origin());
+            let pressed = pressed.map_or([across, up], |pressed| spot(pressed - place.center(), place));
+            view.hand.begun.get_or_insert(pressed);
         } else {
             view.actions.push(Action::Pull { across, up });
             // What is pulled goes on moving while the pointer rests.
