@@ -67,6 +67,8 @@ pub const SCENES: &[Builtin] = scenes![
     "hopper",
     "column_collapse",
     "drum",
+    "avalanche",
+    "brazil_nut",
     "sandcastle",
     "room",
 ];

@@ -212,15 +212,13 @@ impl Plotted {
 
 #[cfg(test)]
 mod tests {
-    use pollster::block_on;
-
     use super::*;
+    use crate::kernel::Array;
     use crate::measure::Energy;
     use crate::scene::{Options, Scene, Source};
-    use crate::simulation::Simulation;
 
-    /// A scene, its simulation on the processor, and its measures.
-    fn watched(more: &str) -> (Simulation<crate::Cpu>, Plots) {
+    /// A block of a flock with its measures, and its state with potential energies.
+    fn watched(more: &str) -> (Setup, Plots, State) {
         let text = format!(
             "[simulation]\ndt = 0.01\nsteps = 10\n[[particles]]\nshape = \"block\"\nspacing = 0.3\nsize = [1.2, 1.2, 1.2]\n\
              velocity = [1, 0, 0]\n[[force]]\nkind = \"boids\"\nrange = 0.5\nseparation_range = 0.2\nmax_speed = 2\n{more}"
@@ -229,13 +227,12 @@ mod tests {
         let mut scene = Scene::load(&source, &[], &Options::default()).unwrap_or_else(|faults| panic!("{faults}"));
         let setup = scene.setup();
         let plots = Plots::new(&setup, &scene.measures).expect("measures");
-        let cpu = crate::Cpu::new(setup.check().expect("a setup")).expect("threads");
-        (Simulation::on(cpu, &setup).expect("a simulation"), plots)
-    }
-    fn take(plots: &mut Plots, simulation: &mut Simulation<crate::Cpu>) -> Arc<State> {
-        let state = Arc::new(block_on(simulation.snapshot()).expect("a state"));
-        plots.take(&state);
-        state
+        let mut state = setup.state.clone();
+        let columns = setup.columns().expect("columns");
+        state.declare(columns.get("potential").expect("potential energies")).expect("a column");
+        let potential = (0..state.len()).map(|row| row as f64).collect();
+        state.set("potential", Array::Float(potential)).expect("potential energies");
+        (setup, plots, state)
     }
     fn named<'a>(plots: &'a mut Plots, title: &str) -> &'a mut Plotted {
         plots.all.iter_mut().find(|one| one.title == title).unwrap_or_else(|| panic!("no {title}"))
@@ -243,14 +240,16 @@ mod tests {
 
     #[test]
     fn what_is_looked_at_is_measured_and_nothing_else() {
-        let (mut simulation, mut plots) = watched("");
+        let (_, mut plots, mut state) = watched("");
         named(&mut plots, "flock").open = true;
-        for _ in 0..3 {
-            simulation.step(2).expect("steps");
-            let state = take(&mut plots, &mut simulation);
-            let (time, row) = named(&mut plots, "energy").rows.back().cloned().expect("a row");
+        for time in [0.0, 0.5, 2.0] {
+            state.time = time;
+            state.velocity_mut().iter_mut().for_each(|v| v.y += time);
+            plots.take(&Arc::new(state.clone()));
+            let (measured, row) = named(&mut plots, "energy").rows.back().cloned().expect("a row");
             let energy = Energy::of(&state).expect("energies");
-            assert_eq!(time, state.time);
+            assert!(energy.kinetic > 0.0 && energy.potential > 0.0);
+            assert_eq!(measured, time);
             assert_eq!(row[..3], [energy.kinetic, energy.potential, energy.kinetic + energy.potential]);
         }
         for one in &plots.all {
@@ -261,9 +260,9 @@ mod tests {
     #[test]
     fn measures_of_one_kind_are_shown_apart() {
         let two = "[[measure]]\nkind = \"flock\"\nrange = 0.35\n[[measure]]\nkind = \"flock\"\nrange = 0.1\n";
-        let (mut simulation, mut plots) = watched(two);
+        let (_, mut plots, state) = watched(two);
         plots.all.iter_mut().for_each(|one| one.open = true);
-        take(&mut plots, &mut simulation);
+        plots.take(&Arc::new(state));
         let place = MEASURES.iter().find(|one| one.name == "flock").expect("flock").cells;
         let place = place.iter().position(|(name, _)| *name == "clusters").expect("clusters");
         let mut clusters = |title| named(&mut plots, title).rows[0].1[place];
@@ -273,14 +272,14 @@ mod tests {
     #[test]
     fn the_usual_range_is_that_of_the_force_as_it_is() {
         for (more, follows) in [("", true), ("[[measure]]\nkind = \"flock\"\nrange = 0.5\n", false)] {
-            let (mut simulation, mut plots) = watched(more);
+            let (setup, mut plots, state) = watched(more);
             named(&mut plots, "flock").open = true;
-            take(&mut plots, &mut simulation);
-            plots.follow(simulation.setup()).expect("the same");
+            plots.take(&Arc::new(state));
+            plots.follow(&setup).expect("the same");
             assert_eq!(named(&mut plots, "flock").rows.len(), 1, "nothing was changed");
-            let mut forces = simulation.setup().forces.clone();
+            let mut forces = setup.forces.clone();
             forces[0] = forces[0].changed("range", &0.25.into()).expect("a range");
-            plots.follow(&Setup { forces, ..simulation.setup().clone() }).expect("a range");
+            plots.follow(&Setup { forces, ..setup }).expect("a range");
             let flock = named(&mut plots, "flock");
             let (range, rows) = if follows { (0.25, 0) } else { (0.5, 1) };
             assert_eq!((flock.settings.number("range"), flock.rows.len()), (range, rows));

@@ -151,6 +151,8 @@ fn scenes_scale_by_one_number() {
         "hopper",
         "column_collapse",
         "drum",
+        "avalanche",
+        "brazil_nut",
         "sandcastle",
         "room",
         "stiff",

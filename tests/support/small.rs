@@ -31,6 +31,8 @@ pub const SMALLER: &[(&str, &[&str])] = &[
     ("pile", FEW_GRAINS.split_at(3).0),
     ("hopper", FEW_GRAINS),
     ("column_collapse", FEW_BEADS),
+    ("avalanche", FEW_ON_A_SLOPE),
+    ("brazil_nut", &["particles.1.size=[0.05, 0.03, 0.05]"]),
     ("sandcastle", FEW_WET),
     ("room", &["particles.0.count=60"]),
     ("drum", &["particles.0.size=[0.03, 0.03, 0.04]", "particles.1.size=[0.03, 0.03, 0.04]"]),
@@ -52,6 +54,13 @@ const THIN_WIRE: &[&str] = &[
     "particles.3.cells=[4, 2, 2]",
     "particles.4.cells=[4, 2, 2]",
     "particles.5.cells=[2, 2, 2]",
+];
+
+/// Some beads before the post.
+const FEW_ON_A_SLOPE: &[&str] = &[
+    "particles.0.size=[0.04, 0.0495, 0.03]",
+    "particles.1.size=[0.04, 0.0495, 0.03]",
+    "particles.2.size=[0.04, 0.0495, 0.03]",
 ];
 
 /// Moulds with a few wet grains.

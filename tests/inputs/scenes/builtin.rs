@@ -41,6 +41,8 @@ fn every_one_loads_and_says_what_to_see() {
         "hopper",
         "column_collapse",
         "drum",
+        "avalanche",
+        "brazil_nut",
         "sandcastle",
         "room",
     ];

@@ -12,6 +12,7 @@ mod energy;
 mod flows;
 mod grains;
 mod ions;
+mod parted;
 mod stress;
 mod thermostat;
 mod walls;
