@@ -129,7 +129,7 @@ impl Viewer {
     pub async fn status(&self) -> Result<Status, JsError> {
         let mut viewer = self.0.viewer.lock().await;
         let (scene, steps, message) = viewer.status();
-        let (asked, taken, paused) = (viewer.asked(), viewer.taken(), viewer.rests());
+        let (asked, taken, paused) = (viewer.asked(), viewer.taken(), viewer.is_paused());
         let (picture, png) = match taken {
             Some(taken) => (Some(taken.name), taken.png),
             None => (None, Vec::new()),

@@ -36,6 +36,8 @@ pub struct Viewer {
     /// The name of the scene that runs.
     name: String,
     taken: VecDeque<Taken>,
+    /// The values that multiplied the particles of the scene, if a factor was given.
+    scaled: Vec<String>,
     /// Files of bytes, for scenes that name them.
     held: Vec<(String, Vec<u8>)>,
     /// Scenes that the panel asks for are opened by the page's script, which knows the link.
@@ -55,6 +57,7 @@ impl Viewer {
             view: None,
             name: String::new(),
             taken: VecDeque::new(),
+            scaled: Vec::new(),
             held: Vec::new(),
             asked: None,
         })
@@ -80,8 +83,9 @@ impl Viewer {
             |overrides: &[String]| Scene::load(&source, overrides, &options).map_err(|faults| faults.to_string());
         let mut overrides = wanted.overrides.clone();
         let mut scene = read(&overrides)?;
-        if let Some(factor) = wanted.scale {
-            overrides.extend(scene.scaled(factor).map_err(words)?);
+        let scaled = wanted.scale.map(|factor| scene.scaled(factor)).transpose().map_err(words)?.unwrap_or_default();
+        if !scaled.is_empty() {
+            overrides.extend_from_slice(&scaled);
             scene = read(&overrides)?;
         }
         let setup = scene.setup().in_its_box().map_err(words)?.into_owned();
@@ -94,9 +98,14 @@ impl Viewer {
         view.pause(wanted.paused);
         self.found.faults.check().map_err(words)?;
         self.name.clone_from(&scene.name);
+        self.scaled = scaled;
         let mut before = self.view.replace(view);
         self.end(&mut before).map_err(words)?;
         Ok(remarks)
+    }
+    /// Whether the run stands still.
+    pub fn is_paused(&self) -> bool {
+        self.view.as_ref().is_none_or(View::is_paused)
     }
     /// Whether nothing moves, so that no frame is due.
     pub fn rests(&self) -> bool {
@@ -110,7 +119,8 @@ impl Viewer {
     }
     /// What was changed by hand, in the form of `--set`.
     pub fn changes(&self) -> Vec<String> {
-        self.view.as_ref().map(View::changes).unwrap_or_default()
+        let changes = self.view.as_ref().map(View::changes).unwrap_or_default();
+        if changes.is_empty() { changes } else { [&self.scaled[..], &changes].concat() }
     }
     /// The next picture or film that was taken, once.
     pub fn taken(&mut self) -> Option<Taken> {

@@ -231,7 +231,9 @@ at("link").onclick = async () => {
   if ([...held].some((name) => open.text.includes(name))) return announce("a link does not carry files of particles: save the scene, and keep them beside it", true);
   // What was changed by hand belongs to what runs, which may be another one than what is written.
   const changes = signature(open) === running ? await viewer?.changes() ?? [] : [];
-  const url = await address({ ...open, overrides: [...open.overrides, ...changes] });
+  // They hold for the particles that there are, and begin with the values of a scale: a factor is taken of all values of a scene.
+  const scale = changes.length ? undefined : open.scale;
+  const url = await address({ ...open, scale, overrides: [...open.overrides, ...changes] });
   if (!url) return announce("this scene is too long for a link: save it as a file", true);
   history.replaceState(null, "", url);
   await navigator.clipboard?.writeText(url).then(() => announce("the link is on the clipboard"), () => announce("the link stands in the address"));

@@ -6,6 +6,7 @@ use super::{Measure, Moment, Row, Series, Times};
 use crate::component::Tail;
 use crate::error::Error;
 use crate::kernel::{Bounds, Side};
+use crate::simulation::Setup;
 
 /// `tail.csv`.
 pub const MEASURE: Measure = Measure {
@@ -21,23 +22,31 @@ pub const MEASURE: Measure = Measure {
     usual: |_| Ok(None),
     begin: |setup, _| {
         let bounds = setup.bounds;
-        let refuse = |why: &str| Err(Error::Scene(format!("the measure `tail` {why}, or leave it out")));
         if bounds.sides != [Side::Periodic; 3] || bounds.dimensions != 3 {
-            return refuse("is for a box that is periodic on all sides in 3 dimensions: set [box] boundary = \"periodic\"");
-        }
-        let tails: Vec<Tail> = setup.forces.iter().flat_map(|force| force.tails()).collect();
-        if tails.is_empty() {
-            return refuse("needs a pair law that ends at its cut-off radius, as lennard_jones with truncation = \"cut\"");
-        }
-        if let Some(tail) = tails.iter().find(|tail| !(tail.energy.is_finite() && tail.slope.is_finite())) {
-            let [a, b] = tail.species;
-            return refuse(&format!(
-                "has no finite sum over pairs of the species {a} and {b}, whose energy falls as slowly as 1 / r: give them a screening"
+            return Err(Error::Scene(
+                "the measure `tail` is for a box that is periodic on all sides in 3 dimensions: set [box] boundary = \"periodic\", or leave it out"
+                    .to_owned(),
             ));
         }
-        Ok(Box::new(Tails { bounds, tails }))
+        Ok(Box::new(Tails { bounds, tails: tails(setup)? }))
     },
 };
+
+/// What the pairs of a setup lack.
+fn tails(setup: &Setup) -> Result<Vec<Tail>, Error> {
+    let refuse = |why: &str| Err(Error::Scene(format!("the measure `tail` {why}, or leave it out")));
+    let tails: Vec<Tail> = setup.forces.iter().flat_map(|force| force.tails()).collect();
+    if tails.is_empty() {
+        return refuse("needs a pair law that ends at its cut-off radius, as lennard_jones with truncation = \"cut\"");
+    }
+    if let Some(tail) = tails.iter().find(|tail| !(tail.energy.is_finite() && tail.slope.is_finite())) {
+        let [a, b] = tail.species;
+        return refuse(&format!(
+            "has no finite sum over pairs of the species {a} and {b}, whose energy falls as slowly as 1 / r: give them a screening"
+        ));
+    }
+    Ok(tails)
+}
 
 /// Corrections of a run.
 #[derive(Debug)]
@@ -64,4 +73,8 @@ impl Series for Tails {
         Ok(vec![[energy, each, pressure].map(Into::into).to_vec()])
     }
     fn recall(&mut self, _: u64, _: &[&str]) {}
+    fn follow(&mut self, setup: &Setup) -> Result<(), Error> {
+        self.tails = tails(setup)?;
+        Ok(())
+    }
 }

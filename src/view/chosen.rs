@@ -37,6 +37,8 @@ pub struct Chosen {
     pub follow: bool,
     rows: Vec<Row>,
     times: Seldom,
+    /// The time of what was read.
+    seen: f64,
     /// The column that is plotted, with the times and values.
     plotted: Option<String>,
     past: VecDeque<[f64; 2]>,
@@ -48,18 +50,29 @@ impl Chosen {
         let ids = ids(simulation).await?;
         let Some(id) = ids.get(place).copied() else { return Ok(None) };
         let (rows, times, past) = (Vec::new(), Seldom::default(), VecDeque::new());
-        let mut chosen = Self { id, place, position: None, follow: false, rows, times, plotted: None, past };
-        chosen.look(simulation, 0.0).await?;
+        let seen = f64::NEG_INFINITY;
+        let mut chosen = Self { id, place, position: None, follow: false, rows, times, seen, plotted: None, past };
+        chosen.look(simulation, f64::NEG_INFINITY).await?;
         Ok(Some(chosen))
     }
-    /// Finds it again, whatever has moved; false where it has left.
-    pub async fn update<B: Backend>(&mut self, simulation: &mut Simulation<B>, time: f64) -> Result<bool, Error> {
+    /// Finds it again, whatever has moved; false where it has left. What a run that stands still shows of it is of its present state.
+    pub async fn update<B: Backend>(
+        &mut self,
+        simulation: &mut Simulation<B>,
+        time: f64,
+        rests: bool,
+    ) -> Result<bool, Error> {
+        #[expect(clippy::float_cmp, reason = "the same time, and no other")]
+        let known = self.seen == time;
+        if rests && known {
+            return Ok(true);
+        }
         let ids = ids(simulation).await?;
         if ids.get(self.place) != Some(&self.id) {
             let Some(place) = ids.iter().position(|id| *id == self.id) else { return Ok(false) };
             self.place = place;
         }
-        if self.times.is_due() {
+        if self.times.is_due() || rests {
             self.look(simulation, time).await?;
             self.times.done();
         } else {
@@ -72,6 +85,7 @@ impl Chosen {
         let columns: Vec<Column> =
             simulation.columns().iter().filter(|column| column.shape == Shape::Particle).cloned().collect();
         self.rows.clear();
+        self.seen = time;
         for column in &columns {
             // What nothing computes has no values.
             let Ok(values) = simulation.read_column(&column.name).await else { continue };
@@ -99,7 +113,7 @@ impl Chosen {
     /// The run begins again.
     pub fn restarted(&mut self) {
         self.past.clear();
-        self.times = Seldom::default();
+        (self.times, self.seen) = (Seldom::default(), f64::NEG_INFINITY);
     }
     /// Its columns.
     pub fn show(&self, ui: &mut Ui, actions: &mut Vec<Action>) {

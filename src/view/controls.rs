@@ -2,7 +2,7 @@
 
 use egui::{
     CentralPanel, CollapsingHeader, Color32, ComboBox, Frame, Image, Label, Panel, PointerButton, Pos2, Rect, Response,
-    ScrollArea, Sense, Slider, Stroke, Ui, Vec2, load::SizedTexture, pos2,
+    ScrollArea, Sense, Stroke, Ui, Vec2, load::SizedTexture, pos2,
 };
 
 use super::action::Action;
@@ -85,9 +85,6 @@ fn panel<B: Backend>(view: &mut View<B>, ui: &mut Ui) {
     ui.separator();
     run(view, ui);
     tool::show(&mut view.hand, view.stage.obstacles(), ui, &mut view.actions);
-    let (bad, warn) = (ui.visuals().error_fg_color, ui.visuals().warn_fg_color);
-    say(view.fault.as_deref().unwrap_or_default(), bad, ui);
-    say(&view.message, warn, ui);
     ui.separator();
     if let Some(chosen) = &view.chosen {
         let title = format!("Particle {}", chosen.id);
@@ -98,6 +95,24 @@ fn panel<B: Backend>(view: &mut View<B>, ui: &mut Ui) {
     CollapsingHeader::new("Picture").default_open(true).show(ui, |ui| looks(view, ui));
     forces(view, ui);
     view.plots.show(ui);
+}
+
+/// What is said, over the lower left corner of the picture: in the panel it would move the controls below.
+fn said<B: Backend>(view: &View<B>, ui: &Ui, place: Rect) {
+    let fault = view.fault.as_deref().unwrap_or_default();
+    if fault.is_empty() && view.message.is_empty() {
+        return;
+    }
+    let area = egui::Area::new(egui::Id::unique("said")).order(egui::Order::Middle).constrain_to(place);
+    let area = area.pivot(egui::Align2::LEFT_BOTTOM).fixed_pos(place.left_bottom() + Vec2::new(8.0, -8.0));
+    area.show(ui.ctx(), |ui| {
+        Frame::popup(ui.style()).show(ui, |ui| {
+            ui.set_max_width((0.8 * place.width()).max(120.0));
+            let (bad, warn) = (ui.visuals().error_fg_color, ui.visuals().warn_fg_color);
+            say(fault, bad, ui);
+            say(&view.message, warn, ui);
+        });
+    });
 }
 
 /// Says something; lines that point at places of a text stand below each other.
@@ -137,8 +152,11 @@ fn run<B: Backend>(view: &mut View<B>, ui: &mut Ui) {
         }
     });
     let mut wanted = view.pace.wanted;
-    let slider = Slider::new(&mut wanted, 1.0..=10_000.0).logarithmic(true).max_decimals(0).text("steps / s");
-    if ui.add(slider).changed() {
+    let slider = sliders::slider(&mut wanted, (1.0, 10_000.0), 1.0).logarithmic(true).text("steps / s");
+    let response = ui.add(slider);
+    if response.changed() {
+        // What is dragged is a whole number.
+        let wanted = if response.dragged() { wanted.round() } else { wanted };
         view.actions.push(Action::Faster(wanted / view.pace.wanted));
     }
     let [asked, now] = view.pace.speeds();
@@ -154,9 +172,8 @@ fn run<B: Backend>(view: &mut View<B>, ui: &mut Ui) {
         row("step", simulation.steps().to_string());
         row("particles", simulation.count().to_string());
         row("time per second", format!("{} of {}", digits(now), digits(asked)));
-        if short {
-            row("", "as fast as it goes".to_owned());
-        }
+        // The row stays, so that nothing below moves.
+        row("", if short { "as fast as it goes" } else { "" }.to_owned());
         let millis = |seconds: Option<f64>| seconds.map_or("…".to_owned(), |s| format!("{:.1} ms", 1e3 * s));
         row("a step takes", millis(view.pace.step));
         row("a picture takes", millis(view.pace.picture));
@@ -203,10 +220,16 @@ fn number<B: Backend>(
     ui: &mut Ui,
     key: &'static str,
     about: &str,
-    slider: impl FnOnce(&mut f64) -> Slider<'_>,
+    range: (f64, f64),
+    logarithmic: bool,
 ) {
-    let mut value = view.stage.number(key);
-    if ui.add(slider(&mut value).text(key)).on_hover_text(about).changed() {
+    let unit = sliders::unit(range.1);
+    let mut value = view.stage.number(key) / unit;
+    let slider = sliders::slider(&mut value, range, unit).logarithmic(logarithmic).text(key);
+    let response = ui.add(slider).on_hover_text(about);
+    if response.changed() {
+        let value = sliders::whole(value, unit);
+        let value = if response.dragged() { value.clamp(range.0, range.1) } else { value };
         view.actions.push(Action::Picture { key, value: value.into() });
     }
 }
@@ -230,18 +253,10 @@ fn looks<B: Backend>(view: &mut View<B>, ui: &mut Ui) {
         });
     }
     let tail = 200.0 * view.stage.dt();
-    number(view, ui, "size", "how large particles are drawn, as a multiple of what they are", |x| {
-        Slider::new(x, 0.1..=20.0).logarithmic(true).max_decimals(2)
-    });
-    number(view, ui, "tail", "a streak from where each particle was so long ago", |x| {
-        Slider::new(x, 0.0..=tail).max_decimals(6)
-    });
-    number(view, ui, "exposure", "brightness of lights, as a multiple of the automatic one", |x| {
-        Slider::new(x, 0.05..=20.0).logarithmic(true).max_decimals(2)
-    });
-    number(view, ui, "bloom", "how bright the bloom around lights is, as a multiple of the usual", |x| {
-        Slider::new(x, 0.0..=5.0).max_decimals(2)
-    });
+    number(view, ui, "size", "how large particles are drawn, as a multiple of what they are", (0.1, 20.0), true);
+    number(view, ui, "tail", "a streak from where each particle was so long ago", (0.0, tail), false);
+    number(view, ui, "exposure", "brightness of lights, as a multiple of the automatic one", (0.05, 20.0), true);
+    number(view, ui, "bloom", "how bright the bloom around lights is, as a multiple of the usual", (0.0, 5.0), false);
     let mut notes = view.stage.picture().annotated();
     let about = "box, axes and a bar of length over the picture, and in those that are saved";
     if ui.checkbox(&mut notes, "annotate").on_hover_text(about).changed() {
@@ -300,6 +315,7 @@ fn picture<B: Backend>(view: &mut View<B>, ui: &mut Ui) {
     if let Some(text) = view.copied.take() {
         ui.ctx().copy_text(text);
     }
+    said(view, ui, place);
     legend::show(&view.stage.picture().color, ui, place);
     if view.stage.picture().annotated() {
         notes::show(view.stage.picture(), ui, place);

@@ -5,6 +5,7 @@ mod added;
 mod changes;
 mod chosen;
 mod controls;
+mod due;
 pub mod gallery;
 mod keyboard;
 mod legend;
@@ -19,7 +20,6 @@ mod stage;
 mod tool;
 
 use std::collections::VecDeque;
-use std::sync::Arc;
 
 use egui::{TextureId, Ui};
 use glam::DVec3;
@@ -91,6 +91,10 @@ pub struct View<B: Backend> {
     /// Whether there is a picture, and whether the state is still that of it.
     shown: bool,
     drawn: bool,
+    /// The picture that could not be drawn last: another one of the same state could not be, either.
+    undrawn: Option<([u32; 2], bool)>,
+    /// The step that was measured last, if forces are as they were.
+    measured: Option<u64>,
 }
 
 impl<B: Backend> View<B> {
@@ -124,6 +128,8 @@ impl<B: Backend> View<B> {
             wanted: None,
             shown: false,
             drawn: false,
+            undrawn: None,
+            measured: None,
         })
     }
     /// The simulation, whose field [`PICTURE`] holds the last picture. What is written to it while the run stands still is drawn after the next input.
@@ -178,12 +184,6 @@ impl<B: Backend> View<B> {
     pub fn is_paused(&self) -> bool {
         self.paused
     }
-    /// Whether it stands still and the picture shows it, so that nothing need be drawn until there is input.
-    #[must_use]
-    pub fn rests(&self) -> bool {
-        let (size, smooth) = self.due();
-        self.paused && self.drawn && self.stage.shows(size, smooth)
-    }
     /// What is said to the user, if anything: what was said last, or else why the run has stopped.
     #[must_use]
     pub fn message(&self) -> &str {
@@ -237,7 +237,7 @@ impl<B: Backend> View<B> {
     /// When the device is lost, out of memory or does not answer in time.
     pub async fn advance(&mut self) -> Result<(), Error> {
         for action in std::mem::take(&mut self.actions) {
-            self.drawn = false;
+            self.changed();
             if let Err(error) = self.act(action).await {
                 self.refuse(error)?;
             }
@@ -251,6 +251,13 @@ impl<B: Backend> View<B> {
                 self.fault = Some(std::mem::replace(&mut self.message, said));
             }
         }
+        if self.paused && self.measures_lack() {
+            // Once, also where it fails.
+            self.measured = Some(self.stage.simulation.steps());
+            if let Err(error) = self.measure().await {
+                self.refuse(error)?;
+            }
+        }
         if let Err(error) = self.find().await {
             self.refuse(error)?;
         }
@@ -261,31 +268,11 @@ impl<B: Backend> View<B> {
         self.shown = true;
         Ok(())
     }
-    /// The size of the picture that is to be seen, and whether it is smooth.
-    fn due(&self) -> ([u32; 2], bool) {
-        self.recording.as_ref().map_or((self.size, self.paused), |recording| (recording.size, true))
-    }
-    /// Draws the picture, unless there is one of what there is.
-    async fn draw(&mut self) -> Result<(), Error> {
-        let (size, smooth) = self.due();
-        if self.drawn && self.stage.shows(size, smooth) {
-            return Ok(());
-        }
-        let begun = Instant::now();
-        match self.stage.draw(size, smooth).await {
-            Ok(()) => {
-                self.pace.drawn(begun.elapsed());
-                self.drawn = true;
-            }
-            Err(error) => self.refuse(error)?,
-        }
-        Ok(())
-    }
     /// Finds the chosen particle again, and goes with it.
     async fn find(&mut self) -> Result<(), Error> {
         let Some(chosen) = &mut self.chosen else { return Ok(()) };
         let time = self.stage.time();
-        if !chosen.update(&mut self.stage.simulation, time).await? {
+        if !chosen.update(&mut self.stage.simulation, time, self.paused).await? {
             self.message = format!("particle {} has left the simulation", chosen.id);
             self.chosen = None;
             return Ok(());
@@ -355,17 +342,14 @@ impl<B: Backend> View<B> {
     /// What stops the run, and when the device is lost, out of memory or does not answer in time.
     pub async fn step(&mut self, steps: u32) -> Result<(), Error> {
         let begun = Instant::now();
-        self.drawn = false;
+        if steps == 0 {
+            return Ok(());
+        }
+        self.changed();
         self.stage.advance(steps).await?;
         self.pace.stepped(steps, begun.elapsed());
         if self.plots.is_due() {
-            let snapshot = Arc::new(self.stage.simulation.snapshot().await?);
-            self.plots.take(&snapshot);
-            // A film has one scale.
-            if self.recording.is_none() {
-                self.stage.follow(&snapshot).await?;
-            }
-            self.plots.done();
+            self.measure().await?;
         }
         Ok(())
     }
@@ -397,6 +381,7 @@ impl<B: Backend> View<B> {
                 if let Some(text) = self.stage.set(&force, &setting, value).await? {
                     self.message = text;
                 }
+                self.measured = None;
                 self.plots.follow(self.stage.simulation.setup())?;
             }
             Action::Picture { key, value } => self.stage.look(key, value).await?,
@@ -465,7 +450,9 @@ impl<B: Backend> View<B> {
         self.say(format!("{what} is on the clipboard"));
     }
     fn restarted(&mut self) {
-        self.plots.restarted(self.stage.simulation.setup());
+        self.measured = None;
+        let forces = self.stage.simulation.setup().forces.clone();
+        self.plots.restarted(&Setup { forces, ..self.stage.start.clone() });
         self.chosen.iter_mut().for_each(Chosen::restarted);
         self.message.clear();
         if self.fault.take().is_some() {

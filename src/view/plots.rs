@@ -32,6 +32,8 @@ struct Plotted {
     rows: VecDeque<(f64, Vec<f64>)>,
     /// Whether it is looked at: others are not taken.
     open: bool,
+    /// Whether it was taken since it began.
+    taken: bool,
     fault: Option<String>,
 }
 
@@ -68,7 +70,11 @@ impl Plots {
     }
     /// The same, which begins again.
     pub fn restarted(&mut self, setup: &Setup) {
-        self.all.iter_mut().for_each(|one| one.restarted(one.settings.clone(), setup));
+        for one in &mut self.all {
+            // It was there at the start.
+            let usual = if one.given { None } else { usual(one.measure, setup).ok().flatten() };
+            one.restarted(usual.unwrap_or_else(|| one.settings.clone()), setup);
+        }
         self.times = Seldom::default();
     }
     /// Goes on with forces that were changed: measures with settings that follow from forces begin again where these differ.
@@ -88,6 +94,10 @@ impl Plots {
     /// Whether it is time for the next rows.
     pub fn is_due(&mut self) -> bool {
         self.times.is_due()
+    }
+    /// Whether one that is looked at was never taken.
+    pub fn lacks(&self) -> bool {
+        self.all.iter().any(|one| one.open && !one.taken)
     }
     /// Measures a state, which was read since it was due.
     pub fn take(&mut self, state: &Arc<State>) {
@@ -131,16 +141,30 @@ impl Plotted {
         let shown = (0..measure.cells.len()).map(|cell| cell < many).collect();
         let (first, rows) = (Vec::new(), VecDeque::new());
         let title = measure.name.to_owned();
-        Some(Self { measure, title, given: false, settings, series, shown, first, rows, open: false, fault: None })
+        Some(Self {
+            measure,
+            title,
+            given: false,
+            settings,
+            series,
+            shown,
+            first,
+            rows,
+            open: false,
+            taken: false,
+            fault: None,
+        })
     }
     fn restarted(&mut self, settings: Settings, setup: &Setup) {
         if let Some(anew) = Self::new(self.measure, settings, setup) {
             self.settings = anew.settings;
             self.series = anew.series;
+            self.taken = false;
             (self.first, self.rows, self.fault) = (anew.first, anew.rows, anew.fault);
         }
     }
     fn take(&mut self, moment: &Moment<'_>) {
+        self.taken = true;
         let numbers = |row: &Vec<Cell>| -> Vec<f64> {
             row.iter()
                 .map(|cell| match cell {
@@ -158,6 +182,8 @@ impl Plotted {
                 for (first, now) in self.first.iter_mut().zip(&row).filter(|(first, _)| !first.is_finite()) {
                     *first = *now;
                 }
+                // A state that is measured again after a force was changed.
+                self.rows.pop_back_if(|(time, _)| *time >= moment.state.time);
                 if self.rows.len() == KEPT {
                     self.rows.pop_front();
                 }
@@ -223,6 +249,9 @@ mod tests {
             "[simulation]\ndt = 0.01\nsteps = 10\n[[particles]]\nshape = \"block\"\nspacing = 0.3\nsize = [1.2, 1.2, 1.2]\n\
              velocity = [1, 0, 0]\n[[force]]\nkind = \"boids\"\nrange = 0.5\nseparation_range = 0.2\nmax_speed = 2\n{more}"
         );
+        of(text)
+    }
+    fn of(text: String) -> (Setup, Plots, State) {
         let source = Source::Memory { name: "scene.toml".to_owned(), text, files: Vec::new() };
         let mut scene = Scene::load(&source, &[], &Options::default()).unwrap_or_else(|faults| panic!("{faults}"));
         let setup = scene.setup();
@@ -249,7 +278,7 @@ mod tests {
             let (measured, row) = named(&mut plots, "energy").rows.back().cloned().expect("a row");
             let energy = Energy::of(&state).expect("energies");
             assert!(energy.kinetic > 0.0 && energy.potential > 0.0);
-            assert_eq!(measured, time);
+            assert!((measured - time).abs() < 1e-12);
             assert_eq!(row[..3], [energy.kinetic, energy.potential, energy.kinetic + energy.potential]);
         }
         for one in &plots.all {
@@ -270,6 +299,26 @@ mod tests {
         assert_eq!((near, alone), (1.0, 64.0));
     }
     #[test]
+    fn corrections_beyond_a_cut_off_are_those_of_the_present_law() {
+        let text = "[simulation]\ndt = 0.001\nsteps = 10\n[box]\nlow = [0, 0, 0]\nsize = [9, 9, 9]\nboundary = \"periodic\"\n[[particles]]\n\
+                    shape = \"block\"\nspacing = 1.5\nsize = [9, 9, 9]\ncenter = [4.5, 4.5, 4.5]\n[[force]]\nkind = \"lennard_jones\"\n\
+                    range = 3\ntruncation = \"cut\"\n";
+        let (setup, mut plots, state) = of(text.to_owned());
+        let state = Arc::new(state);
+        let energy = |plots: &mut Plots| {
+            named(plots, "tail").open = true;
+            plots.take(&state);
+            named(plots, "tail").rows.back().expect("a row").1[0]
+        };
+        let before = energy(&mut plots);
+        let mut forces = setup.forces.clone();
+        forces[0] = forces[0].changed("epsilon", &2.0.into()).expect("an energy");
+        plots.follow(&Setup { forces, ..setup }).expect("a law");
+        let after = energy(&mut plots);
+        assert!(before < 0.0 && (after / before - 2.0).abs() < 1e-9, "{before} {after}");
+        assert_eq!(named(&mut plots, "tail").rows.len(), 1, "one row of one time");
+    }
+    #[test]
     fn the_usual_range_is_that_of_the_force_as_it_is() {
         for (more, follows) in [("", true), ("[[measure]]\nkind = \"flock\"\nrange = 0.5\n", false)] {
             let (setup, mut plots, state) = watched(more);
@@ -279,10 +328,13 @@ mod tests {
             assert_eq!(named(&mut plots, "flock").rows.len(), 1, "nothing was changed");
             let mut forces = setup.forces.clone();
             forces[0] = forces[0].changed("range", &0.25.into()).expect("a range");
-            plots.follow(&Setup { forces, ..setup }).expect("a range");
+            plots.follow(&Setup { forces, ..setup.clone() }).expect("a range");
             let flock = named(&mut plots, "flock");
             let (range, rows) = if follows { (0.25, 0) } else { (0.5, 1) };
             assert_eq!((flock.settings.number("range"), flock.rows.len()), (range, rows));
+            // Back to the forces of the scene.
+            plots.restarted(&setup);
+            assert_eq!(named(&mut plots, "flock").settings.number("range").to_bits(), 0.5_f64.to_bits());
         }
     }
 }

@@ -49,9 +49,41 @@ fn words(value: &Value) -> String {
     }
 }
 
-/// The change of a number that is dragged by a point.
-fn speed(of: f64) -> f64 {
-    0.005 * if of == 0.0 { 1.0 } else { of.abs() }
+/// A power of ten of the size of a number. Controls work in it: they round to decimals, of which the numbers of atoms have none.
+pub fn unit(size: f64) -> f64 {
+    let size = size.abs();
+    if size > 0.0 && size.is_finite() { 10_f64.powf(size.log10().floor()).max(f64::MIN_POSITIVE) } else { 1.0 }
+}
+
+/// A number in units, as it is set and shown: with twelve digits.
+pub fn whole(x: f64, unit: f64) -> f64 {
+    format!("{:.11e}", x * unit).parse().unwrap_or(x * unit)
+}
+
+/// What was typed, in units.
+fn typed(text: &str, unit: f64) -> Option<f64> {
+    text.trim().parse::<f64>().ok().filter(|x| x.is_finite()).map(|x| x / unit)
+}
+
+/// A number in units, in words: with six digits.
+fn shown(x: f64, unit: f64) -> String {
+    let x = format!("{:.5e}", x * unit).parse().unwrap_or(x * unit);
+    if x == 0.0 || (1e-4..1e7).contains(&x.abs()) { plain(x) } else { format!("{x:e}") }
+}
+
+/// A slider of a number in units, that leaves alone what is not moved.
+pub fn slider(value: &mut f64, (low, high): (f64, f64), unit: f64) -> Slider<'_> {
+    let slider = Slider::new(value, low / unit..=high / unit).clamping(SliderClamping::Never).max_decimals(6);
+    slider.custom_formatter(move |x, _| shown(x, unit)).custom_parser(move |text| typed(text, unit))
+}
+
+/// A field for a number that is dragged or typed; the new one, where it was changed.
+fn field(ui: &mut Ui, x: f64, size: f64, label: &egui::Response) -> Option<f64> {
+    let unit = unit(if x == 0.0 { size } else { x });
+    let mut value = x / unit;
+    let field = DragValue::new(&mut value).speed(0.005 * (size / unit).max(1.0)).max_decimals(6);
+    let field = field.custom_formatter(move |x, _| shown(x, unit)).custom_parser(move |text| typed(text, unit));
+    ui.add(field).labelled_by(label.id).changed().then(|| whole(value, unit))
 }
 
 /// The ends of a slider, and whether it is logarithmic.
@@ -72,14 +104,19 @@ fn control(ui: &mut Ui, now: &Setting<'_>, scene: &Value, label: &egui::Response
     match (now.kind, now.value, scene) {
         (kind, Value::Number(x), Value::Number(start)) => {
             let (low, high, logarithmic) = range(kind, *start);
-            let mut value = *x;
-            let mut slider = Slider::new(&mut value, low..=high).clamping(SliderClamping::Never);
-            let speed = speed(*start);
-            slider = if kind.is_whole() { slider.step_by(1.0) } else { slider.max_decimals(6).drag_value_speed(speed) };
+            let unit = if kind.is_whole() { 1.0 } else { unit(*start) };
+            let mut value = *x / unit;
+            let mut slider = slider(&mut value, (low, high), unit);
+            slider = if kind.is_whole() {
+                slider.step_by(1.0)
+            } else {
+                slider.drag_value_speed(if *start == 0.0 { 0.005 } else { 0.005 * start.abs() / unit })
+            };
             if logarithmic {
-                slider = slider.logarithmic(true).smallest_positive(high / REACH.powi(3));
+                slider = slider.logarithmic(true).smallest_positive(high / REACH.powi(3) / unit);
             }
             let response = ui.add(slider).labelled_by(label.id);
+            let value = whole(value, unit);
             // What is dragged beyond what is accepted stays there; what is typed is refused in words.
             let beyond = response.dragged() && kind.outside(value).is_some();
             let value = if beyond { value.clamp(low, high) } else { value };
@@ -102,10 +139,12 @@ fn control(ui: &mut Ui, now: &Setting<'_>, scene: &Value, label: &egui::Response
         }
         (_, Value::Vector(v), _) => {
             let mut parts = v.to_array();
-            let speed = 0.01 * v.abs().max_element().max(0.1);
+            let size = v.abs().max_element();
             let mut changed = false;
             for part in &mut parts {
-                changed |= ui.add(DragValue::new(part).speed(speed).max_decimals(6)).labelled_by(label.id).changed();
+                if let Some(x) = field(ui, *part, if size > 0.0 { size } else { 1.0 }, label) {
+                    (*part, changed) = (x, true);
+                }
             }
             changed.then_some(Value::Vector(DVec3::from_array(parts)))
         }
@@ -153,8 +192,9 @@ fn pairs(ui: &mut Ui, rows: &[Pair], label: &egui::Response) -> Option<Value> {
             let [a, b] = row.species;
             ui.label(format!("{a}, {b}"));
             for (_, x) in &mut row.values {
-                let speed = speed(*x);
-                changed |= ui.add(DragValue::new(x).speed(speed).max_decimals(6)).labelled_by(label.id).changed();
+                if let Some(to) = field(ui, *x, if *x == 0.0 { 1.0 } else { x.abs() }, label) {
+                    (*x, changed) = (to, true);
+                }
             }
             ui.end_row();
         }

@@ -223,20 +223,22 @@ impl<B: Backend> Stage<B> {
         }
         composed
     }
-    /// Takes another scale of colours where values of the run have outgrown the present one, or fill less than half of it.
-    pub async fn follow(&mut self, state: &State) -> Result<(), Error> {
+    /// Takes another scale of colours where values of the run have outgrown the present one, or fill less than half of it;
+    /// whether it does.
+    pub async fn follow(&mut self, state: &State) -> Result<bool, Error> {
         let known = &self.live.picture.color;
-        let Some(mut own) = known.anew(state) else { return Ok(()) };
+        let Some(mut own) = known.anew(state) else { return Ok(false) };
         if matches!(own, Color::Column(_)) {
             let mut picture = self.live.picture.clone();
             picture.paint(own);
             self.simulation.scale(&mut picture).await?;
             own = picture.color;
         }
-        if !known.fits(&own) {
+        let other = !known.fits(&own);
+        if other {
             self.live.picture.paint(own);
         }
-        Ok(())
+        Ok(other)
     }
     /// Moves the camera.
     pub fn camera(&mut self, moved: impl FnOnce(Camera) -> Camera) {

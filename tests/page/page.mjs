@@ -209,7 +209,7 @@ const tests = {
     // A floor plan takes the place of that of a room.
     await page.evaluate(() => { location.hash = "#scene=room&paused=1"; });
     await runs(page, "room");
-    await drop("square.wkt", "GEOMETRYCOLLECTION (POLYGON ((0 0, 15 0, 15 15, 0 15, 0 0)), LINESTRING (15 6, 15 9))");
+    await drop("square.wkt", "GEOMETRYCOLLECTION (POLYGON ((0 0, 15 0, 15 15, 0 15, 0 0)), LINESTRING (14.7 6, 14.7 9))");
     await until(page, () => document.getElementById("text").value.includes("square.wkt"));
     assert.match(await page.textContent("#tabs"), /square\.wkt/);
     await page.close();

@@ -220,6 +220,10 @@ impl Hand {
     pub fn place_beside(&self, label: &str) -> Pos2 {
         self.beside(label).rect().center()
     }
+    /// The number of a slider, in its units.
+    pub fn number_beside(&self, label: &str) -> f64 {
+        self.beside(label).accesskit_node().numeric_value().unwrap_or(f64::NAN)
+    }
     pub fn value_beside(&self, label: &str) -> String {
         self.beside(label).value().unwrap_or_default()
     }

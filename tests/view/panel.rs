@@ -121,6 +121,57 @@ fn tables_and_texts_are_changed_in_the_panel() {
     assert_eq!(Hand::on("salt", &all).setting("born_mayer", "pairs"), Value::Pairs(after.clone()));
 }
 
+/// Values beyond the ends of a slider, and with more digits than it shows, stay as they are until they are moved.
+#[test]
+fn what_is_shown_is_not_changed_by_that() {
+    let values = [
+        "picture.size=50",
+        "picture.exposure=0.01",
+        "picture.bloom=9.1234",
+        "picture.tail=30",
+        "force.0.softening=0.0123456789",
+    ];
+    let mut hand = Hand::on("plummer", &[&["particles.0.count=50"][..], &values].concat());
+    hand.frames(5);
+    assert_eq!(hand.changes(), [""; 0]);
+    // A pace is halved and doubled, also where the slider would show whole numbers alone.
+    let pace = hand.number_beside("steps / s");
+    (0..9).for_each(|_| hand.key(Key::OpenBracket, Modifiers::NONE));
+    hand.frames(2);
+    assert!(pace > 30.0 * hand.number_beside("steps / s"), "{pace}");
+    (0..9).for_each(|_| hand.key(Key::CloseBracket, Modifiers::NONE));
+    hand.frames(2);
+    assert!((hand.number_beside("steps / s") / pace - 1.0).abs() < 1e-9, "{pace}");
+}
+
+/// Sliders have the size of what they show: atoms in metres, kilograms and joules.
+#[test]
+fn sliders_work_in_any_unit() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let scene = folder.path().join("atoms.toml");
+    let text = "[simulation]\ndt = 2e-15\nsteps = 100\n[box]\nlow = [0, 0, 0]\nsize = [4e-9, 4e-9, 4e-9]\nboundary = \"periodic\"\n\
+                [[particles]]\nshape = \"block\"\nspacing = 4e-10\nsize = [2e-9, 2e-9, 2e-9]\ncenter = [2e-9, 2e-9, 2e-9]\n\
+                density = 1036\n[[force]]\nkind = \"lennard_jones\"\nepsilon = 1.65e-21\nsigma = 3.4e-10\nrange = 9e-10\n";
+    std::fs::write(&scene, text).expect("a scene");
+    let mut hand = Hand::on(scene.to_str().expect("a path"), &[]);
+    hand.key(Key::Space, Modifiers::NONE);
+    hand.frames(2);
+    for name in ["epsilon", "sigma"] {
+        let number = |value| if let Value::Number(x) = value { x } else { panic!("a number") };
+        let before = number(hand.setting("lennard_jones", name));
+        assert!((1.0..10.0).contains(&hand.number_beside(name)), "in units of its own size");
+        // A press moves it to the pointer; a changed value has a button before it.
+        let mut dragged = |points| {
+            let place = hand.place_beside(name);
+            hand.drag(place, Vec2::new(points, 0.0), PointerButton::Primary);
+            hand.frames(2);
+            number(hand.setting("lennard_jones", name)) / before
+        };
+        let (near, far) = (dragged(8.0), dragged(20.0));
+        assert!(1e-3 < near && near < far && far < 100.0 && far / near < 10.0, "{name}: {near} {far} times {before}");
+    }
+}
+
 /// A text is set when it is finished; until then its letters are no shortcuts, and what is unknown is refused.
 #[test]
 fn a_text_is_set_when_it_is_finished() {

@@ -91,13 +91,22 @@ fn differ(one: &[u8], two: &[u8]) -> f64 {
     others as f64 / one.len() as f64
 }
 
+/// The time that its process has worked, in hundredths of a second.
+fn ticks(window: &Window) -> u64 {
+    let stat = std::fs::read_to_string(format!("/proc/{}/stat", window.0.id())).expect("a process");
+    // The second field is a name in parentheses, which may have spaces.
+    let (_, fields) = stat.rsplit_once(')').expect("a name");
+    let number = |place: usize| fields.split_whitespace().nth(place).and_then(|field| field.parse::<u64>().ok());
+    number(11).zip(number(12)).map(|(user, system)| user + system).expect("times")
+}
+
 /// The step in the name of a picture.
 fn step(name: &str) -> u64 {
     name.split('_').nth(1).and_then(|part| part.trim_end_matches(".png").parse().ok()).expect("a step")
 }
 
 #[test]
-#[ignore = "needs a screen and xdotool, which tests/run brings"]
+#[ignore = "needs a screen, xdotool and xclip, which tests/run brings"]
 fn a_window_is_dragged_changed_and_edited() {
     let folder = tempfile::tempdir().expect("a folder");
     let scene = folder.path().join("scene.toml");
@@ -121,6 +130,17 @@ fn a_window_is_dragged_changed_and_edited() {
     assert!(step(&name) > 0, "it runs: {name}");
     let (again, same) = taken(folder.path());
     assert!(step(&again) == step(&name) && differ(&before, &same) == 0.0, "it stands still: {name}, {again}");
+    // The exposure has settled, and nothing is drawn any more: it was a whole processor where each frame asked for the next.
+    let before_rest = ticks(&window);
+    std::thread::sleep(Duration::from_secs(3));
+    let worked = ticks(&window) - before_rest;
+    assert!(worked < 100, "{worked} ticks of work in 3 s at rest");
+    act(&["key", "c"]);
+    let command = until("no command is on the clipboard", || {
+        let run = Command::new("xclip").args(["-o", "-selection", "clipboard"]).output().expect("xclip");
+        Some(String::from_utf8_lossy(&run.stdout).into_owned()).filter(|text| !text.is_empty())
+    });
+    assert_eq!(command.trim(), "motes view scene.toml");
     // Balls that overlap look the same from many sides: some of the pixels change.
     drag(Pos2::new(250.0, 600.0), Vec2::new(80.0, 10.0));
     let (_, turned) = taken(folder.path());

@@ -49,19 +49,14 @@ struct Origin {
 /// Loads a scene with the arguments. Adds the files on which this depends, also where there are faults.
 #[cfg(feature = "view")]
 async fn load(args: &ViewArgs, origin: &Origin, files: &mut Vec<PathBuf>) -> Result<Loaded, Failure> {
-    use motes::scene::{Options, Source};
-    let beside: Vec<PathBuf> = origin.beside.iter().map(PathBuf::from).collect();
-    files.extend_from_slice(&beside);
+    use motes::scene::Source;
+    let options = origin.options(args);
+    files.extend_from_slice(&options.beside);
     if let Source::File(path) = &origin.source {
         files.extend(std::path::absolute(path));
     }
     let (values, scale) = origin.given(args);
-    let mut source = origin.source.clone();
-    for file in &origin.beside {
-        source = source.beside(file)?;
-    }
-    let options = Options { allow_outside: args.allow_outside, beside, ..Options::default() };
-    let scene = super::engine::load_scaled(&source, values, scale, &options);
+    let scene = super::engine::load_scaled(&origin.opened()?, values, scale, &options);
     match &scene {
         Ok(scene) => files.extend_from_slice(&scene.files),
         Err(Failure::Scene(faults)) => files.extend_from_slice(&faults.files),
@@ -84,6 +79,14 @@ impl Origin {
             return Err(motes::Error::Scene(why.to_owned()).into());
         }
         Ok(origin)
+    }
+    /// The scene with the files beside it.
+    fn opened(&self) -> Result<motes::scene::Source, motes::Error> {
+        self.beside.iter().try_fold(self.source.clone(), |source, file| source.beside(file))
+    }
+    fn options(&self, args: &ViewArgs) -> motes::scene::Options {
+        let beside = self.beside.iter().map(PathBuf::from).collect();
+        motes::scene::Options { allow_outside: args.allow_outside, beside, ..motes::scene::Options::default() }
     }
     /// The values and the factor of the arguments that are for it. Those for the scene's own particles are not for others in their place.
     fn given(&self, args: &ViewArgs) -> (Vec<String>, Option<f64>) {
@@ -116,13 +119,29 @@ impl Origin {
         };
         let mut words = format!("motes view {}", quoted(&name));
         let (values, scale) = self.given(args);
-        words.extend(scale.map(|factor| format!(" --scale {factor}")));
         words.extend(values.iter().map(set));
         words.extend(self.beside.iter().map(|file| format!(" --beside {}", quoted(file))));
         if args.allow_outside {
             words += " --allow-outside";
         }
-        Box::new(move |changes| changes.iter().fold(words.clone(), |all, value| all + &set(value)))
+        words.extend(args.adapter.iter().map(|adapter| format!(" --adapter {}", quoted(adapter))));
+        let (origin, options) = (self.clone(), self.options(args));
+        Box::new(move |changes| {
+            let mut words = words.clone();
+            if let Some(factor) = scale {
+                // A factor is taken of a scene with all values: what was changed later is none of its values.
+                let scaled = origin
+                    .opened()
+                    .ok()
+                    .and_then(|source| motes::scene::Scene::load(&source, &values, &options).ok()?.scaled(factor).ok());
+                match scaled.filter(|_| !changes.is_empty()) {
+                    Some(scaled) => words.extend(scaled.iter().map(set)),
+                    None => words += &format!(" --scale {factor}"),
+                }
+            }
+            words.extend(changes.iter().map(set));
+            words
+        })
     }
     /// The same with a file beside it, after those before.
     fn with(&self, file: &str) -> Self {
@@ -130,5 +149,40 @@ impl Origin {
         all.beside.retain(|known| known != file);
         all.beside.push(file.to_owned());
         all
+    }
+}
+
+#[cfg(all(test, feature = "view"))]
+mod tests {
+    use clap::Parser;
+
+    use super::*;
+    use crate::cli::args::{Args, Command};
+
+    fn command(words: &[&str], changes: &[&str]) -> String {
+        let args = Args::try_parse_from(["motes", "view"].iter().chain(words)).expect("arguments");
+        let Command::View(args) = args.command else { panic!("view") };
+        let origin = Origin::find(&args, &args.scene).unwrap_or_else(|_| panic!("a scene"));
+        let changes: Vec<String> = changes.iter().map(|change| (*change).to_owned()).collect();
+        origin.command(&args)(&changes)
+    }
+
+    /// A factor is taken of all values: what is changed later would be scaled with them.
+    #[test]
+    fn a_factor_is_written_as_its_values_where_some_were_changed() {
+        let words = ["dam_break_2d", "--scale", "0.25", "--set", "simulation.dt=1e-3"];
+        assert_eq!(command(&words, &[]), "motes view dam_break_2d --set simulation.dt=1e-3 --scale 0.25");
+        let changed = command(&words, &["force.1.spacing=0.07"]);
+        assert!(!changed.contains("--scale"), "{changed}");
+        let spacings: Vec<&str> = changed.split(" --set ").filter(|set| set.starts_with("force.1.spacing=")).collect();
+        assert_eq!((spacings.len(), spacings.last()), (2, Some(&"force.1.spacing=0.07")), "{changed}");
+    }
+    #[test]
+    fn files_beside_a_scene_and_an_adapter_are_given_too() {
+        let words = ["plummer", "--beside", "a law.wgsl", "--adapter", "llvmpipe"];
+        assert_eq!(
+            command(&words, &["force.1.params.k=2.0"]),
+            "motes view plummer --beside 'a law.wgsl' --adapter llvmpipe --set force.1.params.k=2.0"
+        );
     }
 }

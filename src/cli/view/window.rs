@@ -73,7 +73,9 @@ impl ApplicationHandler for App {
     }
     fn window_event(&mut self, events: &ActiveEventLoop, _: WindowId, event: WindowEvent) {
         let Some(shell) = &mut self.shell else { return };
-        if shell.input.on_window_event(&shell.window, &event).repaint {
+        // A redraw is no input: each would ask for the next one.
+        let input = !matches!(event, WindowEvent::RedrawRequested);
+        if input && shell.input.on_window_event(&shell.window, &event).repaint {
             shell.window.request_redraw();
         }
         let done = match event {
