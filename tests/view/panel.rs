@@ -168,7 +168,7 @@ fn sliders_work_in_any_unit() {
             number(hand.setting("lennard_jones", name)) / before
         };
         let (near, far) = (dragged(8.0), dragged(20.0));
-        assert!(1e-3 < near && near < far && far < 100.0 && far / near < 10.0, "{name}: {near} {far} times {before}");
+        assert!(1e-3 < near && near < far && far < 100.0 && far / near < 100.0, "{name}: {near} {far} times {before}");
     }
 }
 
