@@ -106,17 +106,18 @@ fn control(ui: &mut Ui, now: &Setting<'_>, scene: &Value, label: &egui::Response
             let (low, high, logarithmic) = range(kind, *start);
             let unit = if kind.is_whole() { 1.0 } else { unit(*start) };
             let mut value = *x / unit;
-            let mut slider = slider(&mut value, (low, high), unit);
-            slider = if kind.is_whole() {
-                slider.step_by(1.0)
+            // A whole number, such as a seed, has all of its digits.
+            let mut slider = if kind.is_whole() {
+                Slider::new(&mut value, low..=high).clamping(SliderClamping::Never).step_by(1.0)
             } else {
-                slider.drag_value_speed(if *start == 0.0 { 0.005 } else { 0.005 * start.abs() / unit })
+                let speed = 0.005 * if *start == 0.0 { 1.0 } else { start.abs() / unit };
+                slider(&mut value, (low, high), unit).drag_value_speed(speed)
             };
             if logarithmic {
                 slider = slider.logarithmic(true).smallest_positive(high / REACH.powi(3) / unit);
             }
             let response = ui.add(slider).labelled_by(label.id);
-            let value = whole(value, unit);
+            let value = if kind.is_whole() { value } else { whole(value, unit) };
             // What is dragged beyond what is accepted stays there; what is typed is refused in words.
             let beyond = response.dragged() && kind.outside(value).is_some();
             let value = if beyond { value.clamp(low, high) } else { value };
