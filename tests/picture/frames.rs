@@ -7,6 +7,8 @@ use motes::*;
 
 /// Scenes of which a picture shows a part: stars and birds without an end, planets farther out, and grains that still fall.
 const PARTS: &[&str] = &[
+    "avalanche",
+    "brazil_nut",
     "cold_collapse",
     "column_collapse",
     "flock",
