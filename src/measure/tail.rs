@@ -23,18 +23,18 @@ pub const MEASURE: Measure = Measure {
     begin: |setup, _| {
         let bounds = setup.bounds;
         if bounds.sides != [Side::Periodic; 3] || bounds.dimensions != 3 {
-            return Err(Error::Scene(
-                "the measure `tail` is for a box that is periodic on all sides in 3 dimensions: set [box] boundary = \"periodic\", or leave it out"
-                    .to_owned(),
-            ));
+            return refuse("is for a box that is periodic on all sides in 3 dimensions: set [box] boundary = \"periodic\"");
         }
         Ok(Box::new(Tails { bounds, tails: tails(setup)? }))
     },
 };
 
+fn refuse<T>(why: &str) -> Result<T, Error> {
+    Err(Error::Scene(format!("the measure `tail` {why}, or leave it out")))
+}
+
 /// What the pairs of a setup lack.
 fn tails(setup: &Setup) -> Result<Vec<Tail>, Error> {
-    let refuse = |why: &str| Err(Error::Scene(format!("the measure `tail` {why}, or leave it out")));
     let tails: Vec<Tail> = setup.forces.iter().flat_map(|force| force.tails()).collect();
     if tails.is_empty() {
         return refuse("needs a pair law that ends at its cut-off radius, as lennard_jones with truncation = \"cut\"");
@@ -42,7 +42,7 @@ fn tails(setup: &Setup) -> Result<Vec<Tail>, Error> {
     if let Some(tail) = tails.iter().find(|tail| !(tail.energy.is_finite() && tail.slope.is_finite())) {
         let [a, b] = tail.species;
         return refuse(&format!(
-            "has no finite sum over pairs of the species {a} and {b}, whose energy falls as slowly as 1 / r: give them a screening"
+            "has no finite sum over pairs of the species {a} and {b}: their energy falls as slowly as 1 / r; give them a screening"
         ));
     }
     Ok(tails)

@@ -40,8 +40,7 @@ pub(super) fn read(
     report: &mut Report,
 ) -> Option<Emitted> {
     let faults = report.len();
-    let said = if table.get(emitter::SPRAY).is_some() { &[] } else { said };
-    let entries = fluid::completed(table, EMITTER_KEYS, said);
+    let entries = fluid::completed(table, fluid::emitter_keys(table), said);
     let table = &Table { entries: &entries, ..table.clone() };
     let columns = column::givable(known);
     let names: Vec<&str> = OWN.iter().copied().chain(columns.iter().map(|column| column.name.as_ref())).collect();

@@ -45,10 +45,20 @@ pub(super) fn said<'a>(mut tables: impl Iterator<Item = &'a Table<'a>>) -> Vec<E
     shared(keys).filter_map(|key| table.get(key).cloned().or_else(|| preset(key))).collect()
 }
 
+/// The keys that a shape or an emitter with these keys leaves to the force.
+fn left_out(table: &Table<'_>, keys: &[Key]) -> impl Iterator<Item = &'static str> {
+    shared(keys).filter(|key| table.get(key).is_none())
+}
+
 /// The entries of a shape or an emitter for these keys, completed by those of the force.
 pub(super) fn completed(table: &Table<'_>, keys: &[Key], said: &[Entry]) -> Vec<Entry> {
-    let left_out = |entry: &&Entry| shared(keys).any(|key| key == entry.key) && table.get(&entry.key).is_none();
-    table.entries.iter().chain(said.iter().filter(left_out)).cloned().collect()
+    let from_force = |entry: &&Entry| left_out(table, keys).any(|key| key == entry.key);
+    table.entries.iter().chain(said.iter().filter(from_force)).cloned().collect()
+}
+
+/// The keys of an emitter that may be those of the fluid: a spray has none.
+pub(super) fn emitter_keys(table: &Table<'_>) -> &'static [Key] {
+    if table.get(emitter::SPRAY).is_some() { &[] } else { EMITTER_KEYS }
 }
 
 fn shape_keys(table: &Table<'_>) -> Option<&'static [Key]> {
@@ -59,11 +69,9 @@ fn shape_keys(table: &Table<'_>) -> Option<&'static [Key]> {
 pub(super) fn left<'a>(sections: &'a [(&'static str, Table<'a>)]) -> Vec<String> {
     let all = |name: &'static str| sections.iter().filter(move |(n, _)| *n == name).map(|(_, table)| table).enumerate();
     let shapes = all("particles").filter_map(|(place, table)| Some((place, "particles", table, shape_keys(table)?)));
-    let emitters = all("emitter").filter(|(_, table)| table.get(emitter::SPRAY).is_none());
-    let emitters = emitters.map(|(place, table)| (place, "emitter", table, EMITTER_KEYS));
-    let out = |key: &&'static str, table: &Table<'_>| table.get(key).is_none();
+    let emitters = all("emitter").map(|(place, table)| (place, "emitter", table, emitter_keys(table)));
     let named = shapes.chain(emitters).flat_map(|(place, section, table, keys)| {
-        shared(keys).filter(move |key| out(key, table)).map(move |key| format!("{section}.{place}.{key}"))
+        left_out(table, keys).map(move |key| format!("{section}.{place}.{key}"))
     });
     named.collect()
 }

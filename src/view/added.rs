@@ -9,7 +9,6 @@ use crate::error::Error;
 use crate::forces;
 use crate::kernel::{ACCELERATION, Array, Backend};
 use crate::settings::{Settings, Value};
-use crate::simulation::Setup;
 
 /// A ball that was placed without a drag is so large \[halves of the picture's height\].
 const BALL: f64 = 0.1;
@@ -158,7 +157,7 @@ impl<B: Backend> Stage<B> {
     }
     /// Shows the obstacles that there are now.
     pub fn surround(&mut self) {
-        let forces = self.simulation.setup().forces.clone();
-        self.pictures.surround(&Setup { forces, ..self.start.clone() });
+        let present = self.present();
+        self.pictures.surround(&present);
     }
 }

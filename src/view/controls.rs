@@ -94,7 +94,10 @@ fn panel<B: Backend>(view: &mut View<B>, ui: &mut Ui) {
     }
     CollapsingHeader::new("Picture").default_open(true).show(ui, |ui| looks(view, ui));
     forces(view, ui);
-    view.plots.show(ui);
+    if view.plots.show(ui) {
+        // What was not looked at was not measured.
+        view.measured = None;
+    }
 }
 
 /// What is said, over the lower left corner of the picture: in the panel it would move the controls below.

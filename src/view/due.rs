@@ -49,9 +49,9 @@ impl<B: Backend> View<B> {
     /// Whether what is measured of a run that stands still is of another state. Where it has failed there may be none.
     pub(super) fn measures_lack(&self) -> bool {
         let steps = self.stage.simulation.steps();
-        self.fault.is_none() && (self.measured != Some(steps) || self.plots.lacks())
+        self.fault.is_none() && self.measured != Some(steps)
     }
-    /// Measures the state.
+    /// Measures the state, once also where that fails.
     pub(super) async fn measure(&mut self) -> Result<(), Error> {
         self.measured = Some(self.stage.simulation.steps());
         let snapshot = Arc::new(self.stage.simulation.snapshot().await?);

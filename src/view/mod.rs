@@ -88,12 +88,11 @@ pub struct View<B: Backend> {
     copied: Option<String>,
     /// The scene that the shell is asked to open.
     wanted: Option<String>,
-    /// Whether there is a picture, and whether the state is still that of it.
-    shown: bool,
+    /// Whether the state is still that of the picture.
     drawn: bool,
     /// The picture that could not be drawn last: another one of the same state could not be, either.
     undrawn: Option<([u32; 2], bool)>,
-    /// The step that was measured last, if forces are as they were.
+    /// The step that was measured last, if forces and the measures that are looked at are as they were.
     measured: Option<u64>,
 }
 
@@ -126,13 +125,12 @@ impl<B: Backend> View<B> {
             command: Box::new(|changes| changes.join("\n")),
             copied: None,
             wanted: None,
-            shown: false,
             drawn: false,
             undrawn: None,
             measured: None,
         })
     }
-    /// The simulation, whose field [`PICTURE`] holds the last picture. What is written to it while the run stands still is drawn after the next input.
+    /// The simulation. Its field [`PICTURE`] holds the last picture. What is written to it while the run stands still is drawn after the next input.
     pub fn simulation(&mut self) -> &mut Simulation<B> {
         &mut self.stage.simulation
     }
@@ -251,12 +249,11 @@ impl<B: Backend> View<B> {
                 self.fault = Some(std::mem::replace(&mut self.message, said));
             }
         }
-        if self.paused && self.measures_lack() {
-            // Once, also where it fails.
-            self.measured = Some(self.stage.simulation.steps());
-            if let Err(error) = self.measure().await {
-                self.refuse(error)?;
-            }
+        if self.paused
+            && self.measures_lack()
+            && let Err(error) = self.measure().await
+        {
+            self.refuse(error)?;
         }
         if let Err(error) = self.find().await {
             self.refuse(error)?;
@@ -265,7 +262,6 @@ impl<B: Backend> View<B> {
         if let Err(error) = self.record().await {
             self.refuse(error)?;
         }
-        self.shown = true;
         Ok(())
     }
     /// Finds the chosen particle again, and goes with it.
@@ -451,8 +447,7 @@ impl<B: Backend> View<B> {
     }
     fn restarted(&mut self) {
         self.measured = None;
-        let forces = self.stage.simulation.setup().forces.clone();
-        self.plots.restarted(&Setup { forces, ..self.stage.start.clone() });
+        self.plots.restarted(&self.stage.present());
         self.chosen.iter_mut().for_each(Chosen::restarted);
         self.message.clear();
         if self.fault.take().is_some() {

@@ -32,8 +32,6 @@ struct Plotted {
     rows: VecDeque<(f64, Vec<f64>)>,
     /// Whether it is looked at: others are not taken.
     open: bool,
-    /// Whether it was taken since it began.
-    taken: bool,
     fault: Option<String>,
 }
 
@@ -95,10 +93,6 @@ impl Plots {
     pub fn is_due(&mut self) -> bool {
         self.times.is_due()
     }
-    /// Whether one that is looked at was never taken.
-    pub fn lacks(&self) -> bool {
-        self.all.iter().any(|one| one.open && !one.taken)
-    }
     /// Measures a state, which was read since it was due.
     pub fn take(&mut self, state: &Arc<State>) {
         let moment = Moment { state, density: &[], clock: None, links: None, virial: None };
@@ -113,8 +107,9 @@ impl Plots {
     pub fn close(&mut self) {
         self.all.iter_mut().for_each(|one| one.open = false);
     }
-    /// Shows those that are looked at, and a header of each.
-    pub fn show(&mut self, ui: &mut Ui) {
+    /// Shows those that are looked at, and a header of each. Returns whether there are others among them than before.
+    pub fn show(&mut self, ui: &mut Ui) -> bool {
+        let before: Vec<bool> = self.all.iter().map(|one| one.open).collect();
         self.close();
         CollapsingHeader::new("Measures").default_open(false).show(ui, |ui| {
             for one in &mut self.all {
@@ -124,6 +119,7 @@ impl Plots {
                 one.open = response.body_returned.is_some();
             }
         });
+        self.all.iter().zip(before).any(|(one, before)| one.open && !before)
     }
 }
 
@@ -141,30 +137,16 @@ impl Plotted {
         let shown = (0..measure.cells.len()).map(|cell| cell < many).collect();
         let (first, rows) = (Vec::new(), VecDeque::new());
         let title = measure.name.to_owned();
-        Some(Self {
-            measure,
-            title,
-            given: false,
-            settings,
-            series,
-            shown,
-            first,
-            rows,
-            open: false,
-            taken: false,
-            fault: None,
-        })
+        Some(Self { measure, title, given: false, settings, series, shown, first, rows, open: false, fault: None })
     }
     fn restarted(&mut self, settings: Settings, setup: &Setup) {
         if let Some(anew) = Self::new(self.measure, settings, setup) {
             self.settings = anew.settings;
             self.series = anew.series;
-            self.taken = false;
             (self.first, self.rows, self.fault) = (anew.first, anew.rows, anew.fault);
         }
     }
     fn take(&mut self, moment: &Moment<'_>) {
-        self.taken = true;
         let numbers = |row: &Vec<Cell>| -> Vec<f64> {
             row.iter()
                 .map(|cell| match cell {

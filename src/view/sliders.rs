@@ -9,6 +9,8 @@ use crate::settings::{Kind, Pair, Value, plain};
 
 /// So many times the value of the scene a slider reaches, up and down.
 const REACH: f64 = 100.0;
+/// The change of a number that is dragged by a point, as a part of its size.
+const SPEED: f64 = 0.005;
 
 /// The controls of one force. `scene` has the values with which the run began, in the same order.
 pub fn show(ui: &mut Ui, force: &str, settings: &[Setting<'_>], scene: &[Setting<'_>], actions: &mut Vec<Action>) {
@@ -49,10 +51,14 @@ fn words(value: &Value) -> String {
     }
 }
 
+/// The size of a number for its control: 1 where it is 0.
+fn size(of: f64) -> f64 {
+    if of == 0.0 { 1.0 } else { of.abs() }
+}
+
 /// A power of ten of the size of a number. Controls work in it: they round to decimals, of which the numbers of atoms have none.
-pub fn unit(size: f64) -> f64 {
-    let size = size.abs();
-    if size > 0.0 && size.is_finite() { 10_f64.powf(size.log10().floor()).max(f64::MIN_POSITIVE) } else { 1.0 }
+pub fn unit(of: f64) -> f64 {
+    10_f64.powf(size(of).log10().floor()).max(f64::MIN_POSITIVE)
 }
 
 /// A number in units, as it is set and shown: with twelve digits.
@@ -77,18 +83,18 @@ pub fn slider(value: &mut f64, (low, high): (f64, f64), unit: f64) -> Slider<'_>
     slider.custom_formatter(move |x, _| shown(x, unit)).custom_parser(move |text| typed(text, unit))
 }
 
-/// A field for a number that is dragged or typed; the new one, where it was changed.
-fn field(ui: &mut Ui, x: f64, size: f64, label: &egui::Response) -> Option<f64> {
-    let unit = unit(if x == 0.0 { size } else { x });
+/// A field for a number among others as large as `most`, that is dragged or typed; the new one, where it was changed.
+fn field(ui: &mut Ui, x: f64, most: f64, label: &egui::Response) -> Option<f64> {
+    let unit = unit(if x == 0.0 { most } else { x });
     let mut value = x / unit;
-    let field = DragValue::new(&mut value).speed(0.005 * (size / unit).max(1.0)).max_decimals(6);
+    let field = DragValue::new(&mut value).speed(SPEED * (size(most) / unit).max(1.0)).max_decimals(6);
     let field = field.custom_formatter(move |x, _| shown(x, unit)).custom_parser(move |text| typed(text, unit));
     ui.add(field).labelled_by(label.id).changed().then(|| whole(value, unit))
 }
 
 /// The ends of a slider, and whether it is logarithmic.
 pub fn range(kind: Kind, scene: f64) -> (f64, f64, bool) {
-    let size = if scene == 0.0 { 1.0 } else { scene.abs() };
+    let size = size(scene);
     match kind {
         Kind::Fraction => (0.001, 1.0, false),
         Kind::Positive => (size / REACH, size * REACH, true),
@@ -110,8 +116,7 @@ fn control(ui: &mut Ui, now: &Setting<'_>, scene: &Value, label: &egui::Response
             let mut slider = if kind.is_whole() {
                 Slider::new(&mut value, low..=high).clamping(SliderClamping::Never).step_by(1.0)
             } else {
-                let speed = 0.005 * if *start == 0.0 { 1.0 } else { start.abs() / unit };
-                slider(&mut value, (low, high), unit).drag_value_speed(speed)
+                slider(&mut value, (low, high), unit).drag_value_speed(SPEED * size(*start) / unit)
             };
             if logarithmic {
                 slider = slider.logarithmic(true).smallest_positive(high / REACH.powi(3) / unit);
@@ -140,10 +145,10 @@ fn control(ui: &mut Ui, now: &Setting<'_>, scene: &Value, label: &egui::Response
         }
         (_, Value::Vector(v), _) => {
             let mut parts = v.to_array();
-            let size = v.abs().max_element();
+            let most = v.abs().max_element();
             let mut changed = false;
             for part in &mut parts {
-                if let Some(x) = field(ui, *part, if size > 0.0 { size } else { 1.0 }, label) {
+                if let Some(x) = field(ui, *part, most, label) {
                     (*part, changed) = (x, true);
                 }
             }
@@ -193,7 +198,7 @@ fn pairs(ui: &mut Ui, rows: &[Pair], label: &egui::Response) -> Option<Value> {
             let [a, b] = row.species;
             ui.label(format!("{a}, {b}"));
             for (_, x) in &mut row.values {
-                if let Some(to) = field(ui, *x, if *x == 0.0 { 1.0 } else { x.abs() }, label) {
+                if let Some(to) = field(ui, *x, *x, label) {
                     (*x, changed) = (to, true);
                 }
             }

@@ -275,10 +275,13 @@ impl<B: Backend> Stage<B> {
         (self.simulation, self.stale) = (simulation, true);
         Ok(())
     }
+    /// What it began with, and the present forces.
+    pub fn present(&self) -> Setup {
+        Setup { forces: self.simulation.setup().forces.clone(), ..self.start.clone() }
+    }
     /// Back to the start, with the present settings.
     pub async fn reset(&mut self) -> Result<(), Error> {
-        let forces = self.simulation.setup().forces.clone();
-        self.begin((self.make)(&Setup { forces, ..self.start.clone() })?).await
+        self.begin((self.make)(&self.present())?).await
     }
     /// Back to the start, with the settings of the scene.
     pub async fn restore(&mut self) -> Result<(), Error> {

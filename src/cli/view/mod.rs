@@ -130,11 +130,11 @@ impl Origin {
             let mut words = words.clone();
             if let Some(factor) = scale {
                 // A factor is taken of a scene with all values: what was changed later is none of its values.
-                let scaled = origin
-                    .opened()
-                    .ok()
-                    .and_then(|source| motes::scene::Scene::load(&source, &values, &options).ok()?.scaled(factor).ok());
-                match scaled.filter(|_| !changes.is_empty()) {
+                let scaled = || {
+                    let source = origin.opened().ok()?;
+                    motes::scene::Scene::load(&source, &values, &options).ok()?.scaled(factor).ok()
+                };
+                match (!changes.is_empty()).then(scaled).flatten() {
                     Some(scaled) => words.extend(scaled.iter().map(set)),
                     None => words += &format!(" --scale {factor}"),
                 }
