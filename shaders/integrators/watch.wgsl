@@ -7,8 +7,12 @@
 // 0 steps done, 1 id; 3 and 4 the same for speeds; 5 the largest speed of these 16 steps, 6 of those before, 7 how often doubled
 @group(1) @binding(3) var<storage, read_write> alarm: array<atomic<u32>>;
 
+// Steps that are done once this kernel has run, beyond those that are counted: it may run before they are.
+override AHEAD: u32 = 0u;
 const WORKGROUP: u32 = 64u;
 const LARGEST: f32 = 3.4028234663852886e38;
+
+fn done() -> u32 { return world.step + AHEAD; }
 
 // The speed beyond which a particle runs away.
 fn bar() -> f32 {
@@ -20,14 +24,14 @@ fn bar() -> f32 {
 fn examined(i: u32, bar: f32) -> u32 {
     if broken(position[i]) || broken(velocity[i]) || broken(acceleration[i]) {
         // Later checks find an earlier step already stored, and do not change the id.
-        if atomicMin(&alarm[0], world.step) >= world.step { atomicMin(&alarm[1], i); }
+        if atomicMin(&alarm[0], done()) >= done() { atomicMin(&alarm[1], i); }
         return 0u;
     }
     // The largest component stands for the speed: it has no rounding.
     let v = abs(velocity[i].xyz);
     let speed = max(max(v.x, v.y), v.z);
     if speed > bar {
-        if atomicMin(&alarm[3], world.step) >= world.step { atomicMin(&alarm[4], i); }
+        if atomicMin(&alarm[3], done()) >= done() { atomicMin(&alarm[4], i); }
     }
     return bitcast<u32>(speed);
 }

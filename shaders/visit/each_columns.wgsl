@@ -5,7 +5,7 @@ const WORKGROUP: u32 = 64u;
 fn each(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u, @builtin(local_invocation_index) lane: u32) {
     let i = folded(group, groups) * WORKGROUP + lane;
     if i < world.count {
-        let me = particle(i);
+        let me = particle_at(i);
         update(me);
         check_turns(me);
     }

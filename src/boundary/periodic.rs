@@ -21,7 +21,7 @@ pub fn kernel(count: u32) -> Result<Kernel, Error> {
         }
         Ok(())
     };
-    Ok(Kernel::new("periodic", shader, Vec::new(), count, Arc::new(reference)))
+    Ok(Kernel::new("periodic", shader, Vec::new(), count, Arc::new(reference)).alone())
 }
 
 /// The image that is in the box: low ≤ x < high along its periodic axes, also when the result is rounded to single

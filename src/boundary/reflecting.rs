@@ -36,7 +36,10 @@ pub fn kernel(problem: &Problem) -> Result<Kernel, Error> {
         }
         Ok(())
     };
-    Ok(Kernel { tables, ..Kernel::new("reflecting", shader, Vec::new(), problem.capacity, Arc::new(reference)) })
+    Ok(Kernel {
+        tables,
+        ..Kernel::new("reflecting", shader, Vec::new(), problem.capacity, Arc::new(reference)).alone()
+    })
 }
 
 /// The path of a particle reflected between two sides, unfolded, is a straight line: the position of x on it, and whether the

@@ -128,6 +128,7 @@ async fn examined(args: &CheckArgs) -> Result<Report, Failure> {
     notes.extend(scene.remarks.iter().cloned());
     notes.extend(advice(&setup, Some(end))?.iter().map(ToString::to_string));
     notes.extend(hurry);
+    let step = engine.runs(&plans.step);
     Ok(Report {
         particles: count,
         course: format!("{} by {}", course::words(&scene), scene.integrator.name),
@@ -136,8 +137,8 @@ async fn examined(args: &CheckArgs) -> Result<Report, Failure> {
         fluid: lines,
         forecast: motes::diagnose::forecast(&setup, end),
         fields,
-        dispatches: plans.step.dispatches(),
-        step: plans.step.to_string(),
+        dispatches: step.dispatches(),
+        step: step.to_string(),
         per_step,
         steps: scene.steps,
         notes,

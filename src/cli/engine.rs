@@ -2,7 +2,7 @@
 
 use motes::formats::Precision;
 use motes::gpu::{self, Choice, Found};
-use motes::kernel::{Backend, Machine};
+use motes::kernel::{Backend, Machine, Plan};
 use motes::scene::{Options, Scene, Source};
 use motes::{Cpu, Error, Gpu, Setup};
 
@@ -50,6 +50,13 @@ impl Engine {
             Self::Gpu(found) => Gpu::new(&found.device, &found.queue, count)?.machine(),
             Self::Cpu(_) => Cpu::new(count)?.machine(),
         })
+    }
+    /// A plan as it runs there: a device fuses kernels that treat each particle alone.
+    pub fn runs(&self, plan: &Plan) -> Plan {
+        match self {
+            Self::Gpu(_) => plan.fused(),
+            Self::Cpu(_) => plan.clone(),
+        }
     }
     /// Remarks on it, and on a setup that runs on it.
     pub fn remarks(&self, setup: &Setup) -> Result<Vec<String>, Failure> {

@@ -39,6 +39,7 @@ pub async fn explain(args: &ExplainArgs) -> Result<(), Failure> {
     let count = setup.check()?;
     let engine = Engine::choose(&args.device).await?;
     let plans = setup.plans(engine.machine(count)?)?;
+    let (start, step) = (engine.runs(&plans.start), engine.runs(&plans.step));
     // Some kernels run more than once.
     let mut described: Vec<&Kernel> = Vec::new();
     for kernel in plans.step.steps() {
@@ -51,7 +52,7 @@ pub async fn explain(args: &ExplainArgs) -> Result<(), Failure> {
         out!(
             "{:#}",
             json!({ "scene": scene.name, "particles": count, "integrator": scene.integrator.name, "device": engine.describe(),
-                "once": plans.start.to_string(), "step": plans.step.to_string(), "dispatches": plans.step.dispatches(),
+                "once": start.to_string(), "step": step.to_string(), "dispatches": step.dispatches(),
                 "kernels": kernels })
         );
         return Ok(());
@@ -63,9 +64,9 @@ pub async fn explain(args: &ExplainArgs) -> Result<(), Failure> {
     }
     out!("");
     if !plans.start.is_empty() {
-        out!("once:  {}", plans.start);
+        out!("once:  {start}");
     }
-    out!("step:  {}\n", plans.step);
+    out!("step:  {step}\n");
     described.iter().for_each(|kernel| out!("{}", describe(kernel)));
     Ok(())
 }

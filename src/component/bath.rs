@@ -58,7 +58,7 @@ impl Bath {
         ])?;
         let [low, high] = self.seed.map(f64::from);
         let constants = vec![("TEMPERATURE", self.temperature), rate, ("SEED_LOW", low), ("SEED_HIGH", high)];
-        let pass = Pass { constants, ..Pass::new(shader, problem.capacity) };
+        let pass = Pass { constants, alone: true, ..Pass::new(shader, problem.capacity) };
         let of = problem.clone();
         let reference = move |host: &Host| {
             let view = View::of(host)?;

@@ -7,7 +7,7 @@ use crate::kernel::{Kernel, Pass, Problem, Reference, Shader, Source};
 pub(crate) fn each(name: &str, file: Source, problem: &Problem, reference: Reference) -> Result<Kernel, Error> {
     let (holding, tables) = problem.holding();
     let shader = Shader::join(&[crate::shader!("world.wgsl"), holding, file])?;
-    let passes = vec![Pass::new(shader, problem.capacity)];
+    let passes = vec![Pass { alone: true, ..Pass::new(shader, problem.capacity) }];
     let (sizes, scratch) = (Vec::new(), Vec::new());
     Ok(Kernel { name: name.to_owned(), passes, reference: Some(reference), sizes, scratch, tables })
 }

@@ -193,7 +193,7 @@ fn kernel(wall: Wall, problem: &Problem, factor: f64) -> Result<Kernel, Error> {
         }
         Ok(())
     };
-    let mut kernel = Kernel::new("solid", shader, constants, problem.capacity, Arc::new(reference));
+    let mut kernel = Kernel::new("solid", shader, constants, problem.capacity, Arc::new(reference)).alone();
     kernel.passes.iter_mut().for_each(|pass| pass.uniforms.push(("params", params.clone())));
     Ok(Kernel { sizes, tables, ..kernel })
 }

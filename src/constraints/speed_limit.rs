@@ -62,7 +62,7 @@ pub fn kernel(problem: &Problem, [least, most]: [f64; 2], species: Only) -> Resu
     let values = [("least", Scalar::Float(least)), ("most", Scalar::Float(most)), ("species", species.scalar())];
     let params = shader.reflection().binding("params");
     let params = params.map_or(Ok(Vec::new()), |binding| binding.packed.pack("speed_limit", &values))?;
-    let pass = Pass { uniforms: vec![("params", params)], ..Pass::new(shader, problem.capacity) };
+    let pass = Pass { uniforms: vec![("params", params)], alone: true, ..Pass::new(shader, problem.capacity) };
     let problem = problem.clone();
     let reference = move |host: &Host| {
         let view = crate::visit::View::of(host)?;

@@ -71,7 +71,7 @@ pub(crate) fn keep(plan: &FloorPlan, species: Option<u32>, problem: &Problem) ->
         Ok(())
     };
     let constants = vec![("COUNT", count as f64), ("SPECIES", f64::from(species.unwrap_or(u32::MAX)))];
-    let pass = Pass { constants, ..Pass::new(shader, problem.capacity) };
+    let pass = Pass { constants, alone: true, ..Pass::new(shader, problem.capacity) };
     tables.push(table(plan));
     Ok(Kernel {
         name: "walls keep".to_owned(),

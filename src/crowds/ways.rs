@@ -135,7 +135,7 @@ pub(crate) fn inside(problem: &Problem) -> Result<Kernel, Error> {
         Ok(())
     };
     let files = [crate::shader!("world.wgsl"), crate::shader!("crowds/inside.wgsl"), problem.active()];
-    Ok(Kernel::new("inside", Shader::join(&files)?, Vec::new(), problem.capacity, Arc::new(reference)))
+    Ok(Kernel::new("inside", Shader::join(&files)?, Vec::new(), problem.capacity, Arc::new(reference)).alone())
 }
 
 /// The law that drives pedestrians of a species, or all, to exits, within a relaxation time.

@@ -236,7 +236,9 @@ impl Backend for Gpu {
                 self.write_bytes(&name, 0, bytemuck::cast_slice(words))?;
             }
         }
-        Program::new(&mut self.queue, &mut self.pipelines, &self.buffers, plan)
+        // A browser takes text, which a fused shader has none of.
+        let plan = if cfg!(target_arch = "wasm32") { plan.clone() } else { plan.fused() };
+        Program::new(&mut self.queue, &mut self.pipelines, &self.buffers, &plan)
     }
     fn run(&mut self, program: &Program, times: u32) -> Result<(), Error> {
         self.queue.run(program, times)

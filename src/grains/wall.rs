@@ -156,7 +156,8 @@ impl Surface {
         }
         let names = [("wall_history", history.clone().into()), ("wall_frame", pose.clone().into())];
         let reference = move |host: &Host| wall.forces(host, [&history, &pose]);
-        let pass = Pass { constants, uniforms: vec![("params", params)], ..Pass::new(shader, problem.capacity) };
+        let pass =
+            Pass { constants, uniforms: vec![("params", params)], alone: true, ..Pass::new(shader, problem.capacity) };
         Ok(Kernel {
             name: name.to_owned(),
             passes: vec![pass.on(&names)],

@@ -63,7 +63,7 @@ fn first(count: u32) -> Result<Kernel, Error> {
         }
         Ok(())
     };
-    Ok(Kernel::new("kick, Beeman's first", shader, Vec::new(), count, Arc::new(reference)))
+    Ok(Kernel::new("kick, Beeman's first", shader, Vec::new(), count, Arc::new(reference)).alone())
 }
 
 /// v ← v + (2 a + a') dt / 6
@@ -78,5 +78,5 @@ fn last(count: u32) -> Result<Kernel, Error> {
         }
         Ok(())
     };
-    Ok(Kernel::new("kick, Beeman's last", shader, Vec::new(), count, Arc::new(reference)))
+    Ok(Kernel::new("kick, Beeman's last", shader, Vec::new(), count, Arc::new(reference)).alone())
 }

@@ -49,6 +49,9 @@ pub struct Pass {
     pub indirect: Option<Indirect>,
     /// An estimate of its work: evaluations of a pair, or one per particle. Submissions are divided by it.
     pub work: u64,
+    /// Whether an invocation treats one particle alone: whatever it writes, it reads and writes only the elements of its own index there. Such
+    /// dispatches can be fused, see [`Plan::fused`](super::Plan::fused).
+    pub alone: bool,
 }
 
 impl Pass {
@@ -57,7 +60,7 @@ impl Pass {
     pub fn new(shader: Arc<Shader>, count: u32) -> Self {
         let (constants, uniforms, fields) = (Vec::new(), Vec::new(), Vec::new());
         let (threads, work) = (Threads::new(count), u64::from(count));
-        Self { shader, constants, uniforms, fields, threads, indirect: None, work }
+        Self { shader, constants, uniforms, fields, threads, indirect: None, work, alone: false }
     }
     /// The same with fields bound to names of the shader.
     #[must_use]

@@ -59,6 +59,12 @@ impl Kernel {
             tables: Vec::new(),
         }
     }
+    /// The same, of dispatches that treat each particle alone; see [`Pass::alone`].
+    #[must_use]
+    pub fn alone(mut self) -> Self {
+        self.passes.iter_mut().for_each(|pass| pass.alone = true);
+        self
+    }
     /// The fields that it writes, by name, without its scratch.
     #[must_use]
     pub fn writes(&self) -> Vec<String> {
@@ -208,7 +214,7 @@ impl Plan {
     pub fn walk(&self) -> Walk<'_> {
         Walk::new(self)
     }
-    fn place(&mut self, kernel: Kernel) -> usize {
+    pub(super) fn place(&mut self, kernel: Kernel) -> usize {
         let known = self.kernels.iter().position(|k| k.name == kernel.name && k.runs_as(&kernel));
         known.unwrap_or_else(|| {
             self.kernels.push(kernel);

@@ -9,7 +9,7 @@ use naga::valid::{Capabilities, ModuleInfo, ValidationFlags, Validator};
 
 use super::reflect::Reflection;
 use super::unused_word::{with_unused_word, written};
-use super::{Binding, Scalar, message, own};
+use super::{Binding, Pass, Scalar, message, own};
 use crate::error::Error;
 
 /// One file of WGSL.
@@ -40,6 +40,11 @@ impl Source {
     #[must_use]
     pub fn law(file: String, text: String) -> Self {
         Self { law: true, ..Self::theirs(file, text) }
+    }
+    /// The names, numbers and marks of the text, comments left out.
+    #[must_use]
+    pub fn words(&self) -> Vec<&str> {
+        own::tokens(&self.text).into_iter().map(|token| token.text).collect()
     }
     /// The fault of a function of this file, if there is one of that name that differs from `signature`: a message with the position.
     #[must_use]
@@ -152,6 +157,18 @@ impl Shader {
         let Joined { text, module, info } = joined;
         let reflection = Reflection::of(&module, &info);
         Ok(Arc::new(Self { sources: given.to_vec(), text, module, reflection, written }))
+    }
+    /// A shader that runs those of several passes one after another, of a module that was made from theirs; `None` where that is not valid.
+    pub(super) fn merged(passes: &[&Pass], text: String, module: naga::Module) -> Option<Self> {
+        let info = Validator::new(ValidationFlags::all(), Capabilities::all()).validate(&module).ok()?;
+        let reflection = Reflection::of(&module, &info);
+        let (mut sources, mut written): (Vec<Source>, Vec<String>) = (Vec::new(), Vec::new());
+        for shader in passes.iter().map(|pass| &pass.shader) {
+            sources
+                .extend(shader.sources.iter().filter(|source| !sources.contains(source)).cloned().collect::<Vec<_>>());
+            written.extend(shader.written.iter().cloned());
+        }
+        Some(Self { sources, text, module, reflection, written })
     }
     /// The files.
     #[must_use]

@@ -112,7 +112,7 @@ fn kernel(
     let shown = factor
         .filter(|factor| (*factor - 1.0).abs() > 0.0)
         .map(|factor| format!(" FACTOR={}", crate::kernel::short(factor)));
-    let pass = Pass { constants, ..Pass::new(shader, problem.capacity) }.on(&fields);
+    let pass = Pass { constants, alone: true, ..Pass::new(shader, problem.capacity) }.on(&fields);
     Ok(Kernel {
         name: format!("{verb} {}{}", body.orientation, shown.unwrap_or_default()),
         passes: vec![pass],

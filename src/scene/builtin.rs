@@ -72,3 +72,41 @@ pub const SCENES: &[Builtin] = scenes![
     "sandcastle",
     "room",
 ];
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::kernel::{Access, Machine};
+    use crate::scene::{Options, Scene, Source};
+
+    /// Every dispatch that claims to treat particles alone, in all built-in scenes and with every integrator, names an element by the index of
+    /// its own invocation.
+    #[test]
+    fn kernels_that_are_marked_look_at_no_other_particle() {
+        let mut seen = std::collections::BTreeSet::new();
+        for scene in SCENES {
+            let source = Source::find(scene.name).expect("a built-in scene");
+            for integrator in ["", "rk4", "beeman", "implicit_midpoint"] {
+                let set = format!("simulation.integrator={integrator}");
+                let overrides = if integrator.is_empty() { vec![] } else { vec![set] };
+                // Not every scene goes with every integrator.
+                let Ok(mut loaded) = Scene::load(&source, &overrides, &Options::default()) else { continue };
+                let Ok(plans) = loaded.setup().plans(Machine::HOST) else { continue };
+                for kernel in plans.all().flat_map(|plan| &plan.kernels) {
+                    for pass in kernel.passes.iter().filter(|pass| pass.alone) {
+                        let columns: Vec<String> = (pass.shader.reflection().bindings.iter())
+                            .filter(|binding| binding.access != Access::Uniform && binding.array)
+                            .filter(|binding| kernel.size(pass.field(&binding.name)).is_none())
+                            .map(|binding| binding.name.clone())
+                            .collect();
+                        for file in pass.shader.sources() {
+                            assert!(crate::visit::stays_alone(file, &columns), "{}: {}", kernel.name, file.file);
+                        }
+                        seen.insert(kernel.name.split_whitespace().next().unwrap_or_default().to_owned());
+                    }
+                }
+            }
+        }
+        assert!(seen.len() > 25, "{seen:?}");
+    }
+}

@@ -259,6 +259,7 @@ impl Law {
         let mut kernel = law.clone().visiting(problem)?;
         law.bind_tables(&mut kernel, problem)?;
         law.check_columns(&mut kernel, problem)?;
+        law.mark_alone(&mut kernel);
         Ok(kernel)
     }
     pub(super) fn visiting(self, problem: &Problem) -> Result<Kernel, Error> {
@@ -385,7 +386,7 @@ impl Law {
             };
             let words = pairs.words(&self.name, binding, &present)?;
             let (uniform, stride) = (binding.access == Access::Uniform, binding.stride);
-            let side = f64::from(pairs.side(&present));
+            let side = if pairs.is_alike() { 1.0 } else { f64::from(pairs.side(&present)) };
             if uniform {
                 let bytes: Vec<u8> = words.1.iter().flat_map(|word| word.to_le_bytes()).collect();
                 let binds = |pass: &&mut crate::kernel::Pass| pass.shader.reflection().binding(PAIR_TABLE).is_some();

@@ -1,5 +1,6 @@
 //! Visits: which pairs are evaluated. A law defines the interaction; a visit defines the pairs, and joins the law's WGSL with its own.
 
+mod alone;
 mod each;
 mod files;
 mod jacobian;
@@ -22,6 +23,8 @@ mod two_words;
 mod virial;
 mod walk;
 
+#[cfg(test)]
+pub(crate) use alone::stays_alone;
 pub use jacobian::{Jacobian, ROW, ROWS};
 pub use law::{Distant, Law};
 pub use links::{LINK, LINK_START, bind};

@@ -65,6 +65,13 @@ impl PairTable {
             .max()
             .map_or(1, |n| n.saturating_add(1))
     }
+    /// Whether all pairs of all its species have the same parameters: the first row of the table serves them all.
+    #[must_use]
+    pub fn is_alike(&self) -> bool {
+        let side = self.side(&[]) as usize;
+        let same = self.rows.windows(2).all(|rows| rows[0].values == rows[1].values);
+        same && self.rows.len() == side * (side + 1) / 2
+    }
     /// The words of the table, for the species that particles have.
     ///
     /// # Errors

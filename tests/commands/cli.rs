@@ -228,7 +228,7 @@ fn the_other_commands_print_what_they_promise() {
     };
     lines(
         &["explain", "kepler", "--set", "simulation.integrator=leapfrog"],
-        &["step:  kick+drift KICK=0.5 | clear | gravity | kick FACTOR=0.5 | tick | watch"],
+        &["step:  kick+drift KICK=0.5 + clear | gravity | kick FACTOR=0.5 + watch | tick"],
     );
     lines(&["check", "fountain"], &["position", "in all", "per step", "no faults"]);
     lines(&["check", "fountain", "--set", "simulation.integrator=leapfrog"], &["depends on velocity", "of order 1"]);

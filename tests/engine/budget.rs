@@ -48,7 +48,7 @@ fn row(scene: &str, overrides: &[&str], machine: Machine) -> Vec<u64> {
     let setup = setup(with(scene, overrides));
     let plans = setup.plans(machine).unwrap_or_else(|error| panic!("{scene}: {error}"));
     let count = setup.check().expect("particles");
-    let costs = plans.step.costs(count, machine.workgroups).expect("dispatches that fit");
+    let costs = plans.step.fused().costs(count, machine.workgroups).expect("dispatches that fit");
     let sum = |of: &dyn Fn(&Cost) -> u64| costs.iter().map(of).sum::<u64>();
     let mut buffers = BTreeMap::new();
     for (name, bytes) in plans.all().flat_map(|plan| plan.fields(count)) {

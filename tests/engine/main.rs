@@ -9,6 +9,7 @@ mod budget;
 mod columns;
 mod drivers;
 mod errors;
+mod fused;
 mod laws;
 mod library;
 mod measures;

@@ -30,7 +30,7 @@ pub fn watches(device: &Device, stages: &mut Vec<Stage>) {
         (ACCELERATION, FEW - 1, 3, f32::NAN, none),
         // After fewer steps another was found: it stays. After as many: the lower id. After more: this one.
         (POSITION, 3, 2, f32::INFINITY, [1, 50]),
-        (POSITION, 3, 2, f32::INFINITY, [3, 490]),
+        (POSITION, 3, 2, f32::INFINITY, [4, 490]),
         (POSITION, 3, 2, f32::INFINITY, [9, 490]),
     ];
     for (visit, watch) in on_both(device) {
@@ -78,7 +78,7 @@ pub fn runaways(device: &Device, stages: &mut Vec<Stage>) {
             words(none, [0.0, 2.0 * most], 9),
             words(none, [1.5 * most, 0.1 * most], 8),
             words([1, 50], [0.0, most / 2.5], 7),
-            words([3, 490], [0.0, most / 2.5], 7),
+            words([4, 490], [0.0, most / 2.5], 7),
             words([9, 490], [0.0, most / 2.5], 7),
         ];
         for (case, alarm) in cases.into_iter().enumerate() {

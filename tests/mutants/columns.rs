@@ -3,24 +3,17 @@
 use glam::DVec3;
 use motes::Bounds;
 use motes::forces::{Law, Over, Particle, Problem};
-use motes::kernel::{Column, Columns, Kind, Machine, Scalar, Source, World};
+use motes::kernel::{Column, Columns, Kind, Machine, SPECIES, Scalar, Source, World};
 use motes::visit::{Outcome, PairRow, PairTable};
 
 use crate::laws::resting;
-use crate::stages::{Device, FEW, Stage, stage};
+use crate::stages::{Device, FEW, Stage, fill, put};
 use crate::support;
 use crate::support::equivalents::{Equivalent, same};
+use crate::support::machines::alone;
 
-pub const EQUIVALENT: &[Equivalent] = &[
-    same("law/pair_index.wgsl", "override SPECIES: u32 = 1u;", "1u", "2u", "the table always sets it"),
-    same(
-        "visit/each_columns.wgsl",
-        "if i < world.count {",
-        "<",
-        "<=",
-        "the last particle is written by two lanes that read before either writes",
-    ),
-];
+pub const EQUIVALENT: &[Equivalent] =
+    &[same("law/pair_index.wgsl", "override SPECIES: u32 = 1u;", "1u", "2u", "the table always sets it")];
 
 const FIELD: &str = "
 struct Pair { strength: f32 }
@@ -41,7 +34,8 @@ fn strength(a: u32, b: u32) -> f64 {
     0.3 + f64::from(a + b) + 2.0 * f64::from(a * b)
 }
 
-fn laws() -> [Law; 2] {
+/// The law of a table over pairs of so many species; of one a uniform block, which has rows beyond it.
+fn laws(kinds: u32) -> [Law; 2] {
     let gather = |me: &Particle, you: &Particle, r: DVec3, _: &World, sum: &mut f64| {
         *sum += strength(me.species(), you.species()) / (1.0 + r.length_squared());
     };
@@ -50,9 +44,15 @@ fn laws() -> [Law; 2] {
         species: [a, b],
         values: vec![("strength".to_owned(), Scalar::Float(strength(a, b)))],
     };
-    let rows = (0..3).flat_map(|a| (a..3).map(move |b| row(a, b))).collect();
-    let law =
-        Law::computing("field", Over::Pairs, Source::ours("field", FIELD), Vec::new(), &["field"], gather, finish);
+    let rows = (0..kinds).flat_map(|a| (a..kinds).map(move |b| row(a, b))).collect();
+    let block = [
+        ("<storage, read> pair_table: array<Pair>", "<uniform> pair_table: array<Pair, 64>"),
+        ("{ strength", "{ @size(16) strength"),
+    ];
+    let block =
+        block.into_iter().filter(|_| kinds == 1).fold(FIELD.to_owned(), |text, (old, new)| text.replace(old, new));
+    let field = Source { text: block.into(), ..Source::ours("field", "") };
+    let law = Law::computing("field", Over::Pairs, field, Vec::new(), &["field"], gather, finish);
     let mark = Law::updating("mark", Source::ours("mark", MARK), Vec::new(), &["field"], |me, _, outcome| {
         outcome.set("field", 0.75 * me.scalar("field").unwrap_or(f64::NAN) + me.position.x);
     });
@@ -62,12 +62,20 @@ fn laws() -> [Law; 2] {
 pub fn all(device: &Device, stages: &mut Vec<Stage>) {
     let machine = Machine::HOST;
     let field = Column::new("field", Kind::Scalar, "", "what pairs add up to").derived();
-    let problem = Problem::new(u32::try_from(FEW).expect("few"), machine)
-        .of_species(&support::species(FEW))
-        .of_columns(Columns::with([field]).expect("a column"));
-    for law in laws() {
-        let simulation = resting(device, machine, Bounds::default());
-        let name = format!("column, {}", law.name);
-        stages.push(stage(&name, simulation, law.kernel(&problem).expect("a kernel")));
+    let problem =
+        Problem::new(u32::try_from(FEW).expect("few"), machine).of_columns(Columns::with([field]).expect("a column"));
+    for kinds in [3, 2, 1] {
+        let species: Vec<u32> = support::species(FEW).into_iter().map(|kind| kind % kinds).collect();
+        let problem = problem.clone().of_species(&species);
+        for law in laws(kinds) {
+            let mut simulation = resting(device, machine, Bounds::default());
+            let (name, paired) = (format!("column, {}, of {kinds}", law.name), law.pairs.is_some());
+            let plan = alone(law.kernel(&problem).expect("a kernel"));
+            fill(&mut simulation, &plan);
+            if paired {
+                put(&mut simulation, SPECIES, &species);
+            }
+            stages.push(Stage::of(&name, simulation, plan));
+        }
     }
 }

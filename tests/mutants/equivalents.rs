@@ -129,6 +129,7 @@ pub const EQUIVALENT: &[Equivalent] = &[
         "1u",
         "any invocation of a workgroup may load and raise for all",
     ),
+    same("integrators/watch.wgsl", "override AHEAD: u32 = 0u;", "0u", "1u", "every plan sets it"),
     same("watch.wgsl", "if speed > atomicLoad", ">", ">=", "the largest stays the largest"),
     same(
         "boids.wgsl",
@@ -174,8 +175,8 @@ pub const EQUIVALENT: &[Equivalent] = &[
     same("reflecting.wgsl", "x <= high)", "<=", "<", AT_THE_SIDE),
     same("periodic.wgsl", "if inside >= low", ">=", ">", AT_THE_SIDE),
     same("reflecting.wgsl", "velocity[i] = v * vec4f(", "*", "/", "1 and -1 are their own inverses"),
-    same("particle.wgsl", "let index = min(i, world.count - 1u);", "-", "+", STORES_NOTHING),
-    same("particle_two_words.wgsl", "let index = min(i, world.count - 1u);", "-", "+", STORES_NOTHING),
+    same("particle.wgsl", "return particle_at(min(i, world.count - 1u));", "-", "+", STORES_NOTHING),
+    same("particle_two_words.wgsl", "return particle_at(min(i, world.count - 1u));", "-", "+", STORES_NOTHING),
     same("span.wgsl", "i >= world.count { return Sum(); }", ">=", ">", STORES_NOTHING),
     same(
         "pairs_tile.wgsl",

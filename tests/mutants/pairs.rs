@@ -24,6 +24,7 @@ pub const EQUIVALENT: &[Equivalent] = &[
     same("integrators/pairs", "override SLOTS: u32 = 1u;", "1u", "2u", ALWAYS_SET),
     same("pairs/vector.wgsl", "override FIRST: u32 = 0u;", "0u", "1u", ALWAYS_SET),
     same("pairs/vector.wgsl", "override END: u32 = 3u;", "3u", "4u", ALWAYS_SET),
+    same("pairs/watch.wgsl", "override AHEAD", "0u", "1u", "every plan sets it"),
     same("pairs/watch.wgsl", "if i < ELEMENTS", "<", "<=", "what stands behind the last is a number"),
     same(
         "rotation/",
@@ -132,8 +133,8 @@ fn watches(shared: &Rc<RefCell<Simulation<Gpu>>>, kernel: &Kernel, columns: &Col
     let cases = [
         ([u32::MAX; 2], 3, f64::NAN),
         ([0, 50], 42, f64::INFINITY),
-        ([1, 50], 42, f64::NEG_INFINITY),
-        ([1, 490], 42, f64::NAN),
+        ([2, 50], 42, f64::NEG_INFINITY),
+        ([2, 490], 42, f64::NAN),
         ([9, 490], FEW - 1, f64::NAN),
     ];
     for (case, (alarm, id, value)) in cases.into_iter().enumerate() {

@@ -23,6 +23,7 @@ pub async fn kernels(args: &BenchArgs, found: &Found) -> Result<Value, Failure> 
     let (rounds, whole) = rounds(args, &mut simulation).await?;
     let limit = simulation.backend().machine().workgroups;
     let (plan, rows) = simulation.step_plan();
+    let plan = plan.fused();
     let mut kernels = Vec::new();
     for cost in plan.costs(rows, limit)? {
         let name = plan.name(&cost).to_owned();

@@ -26,11 +26,11 @@ const LABEL: u32 = 248;
 
 /// The instructions of the shader of a pass, with its constants; `None` if naga cannot write it.
 pub fn instructions(pass: &Pass) -> Option<Instructions> {
-    let module = naga::front::wgsl::parse_str(pass.shader.text()).ok()?;
-    let info = Validator::new(ValidationFlags::all(), Capabilities::all()).validate(&module).ok()?;
+    let module = pass.shader.module();
+    let info = Validator::new(ValidationFlags::all(), Capabilities::all()).validate(module).ok()?;
     let (stage, entry) = (naga::ShaderStage::Compute, pass.shader.reflection().entry.clone());
     let constants = pass.constants.iter().map(|(name, value)| ((*name).to_owned(), *value)).collect();
-    let (module, info) = process_overrides(&module, &info, Some((stage, &entry)), &constants).ok()?;
+    let (module, info) = process_overrides(module, &info, Some((stage, &entry)), &constants).ok()?;
     let mut options = spv::Options::default();
     options.flags.remove(spv::WriterFlags::DEBUG);
     options.force_loop_bounding = !pass.shader.trusted();

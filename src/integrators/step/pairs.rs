@@ -203,7 +203,9 @@ impl Step<'_> {
         }
     }
     /// Raises the alarm for columns that are not finite.
-    pub(super) fn watch_pairs(&mut self) {
-        self.each_pair(|pair, columns, problem| around::watch(&Part::of(&pair.column, columns), problem).transpose());
+    pub(super) fn watch_pairs(&mut self, ahead: u32) {
+        self.each_pair(|pair, columns, problem| {
+            around::watch(&Part::of(&pair.column, columns), ahead, problem).transpose()
+        });
     }
 }

@@ -23,28 +23,32 @@ impl<'a> Step<'a> {
             self.evaluate();
         }
         self.dt_criteria();
-        self.add(watch::kernel(&self.problem));
-        self.watch_pairs();
+        self.watch(0);
         self.finished()
+    }
+    /// Checks for numbers that are not finite, before the last steps, `ahead`, are counted.
+    fn watch(&mut self, ahead: u32) {
+        self.add(watch::kernel(&self.problem, ahead));
+        self.watch_pairs(ahead);
     }
     /// Whether an evaluation depends on the accelerations of the previous one.
     fn looks_back(&self) -> bool {
         let mut laws = self.forces.iter().flat_map(|force| force.laws());
         laws.any(|law| law.tree(&self.problem).is_some_and(|tree| matches!(tree.opening, Opening::Relative { .. })))
     }
-    /// The plan of one step: the integrator's kernels, the step counter, spawns and drains, and a check for numbers that are not finite.
+    /// The plan of one step: the integrator's kernels, a check for numbers that are not finite, the step counter, spawns and drains.
     ///
     /// # Errors
     /// The first error of writing it.
     pub fn done(mut self) -> Result<Plan, Error> {
         self.each(Stage::EndOfStep);
         self.pressure();
+        // Beside the last kick, with which it can be one dispatch.
+        self.watch(1);
         self.add(if self.problem.adaptive_step.is_some() { adaptive::tick(&self.problem) } else { tick::kernel() });
         self.populate();
         // Particles just spawned take part in the criterion for their first step.
         self.dt_criteria();
-        self.add(watch::kernel(&self.problem));
-        self.watch_pairs();
         self.finished()
     }
     /// Adds the measurement of the pressure, and what follows from it, where a component needs it.

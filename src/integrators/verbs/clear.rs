@@ -14,7 +14,7 @@ pub fn kernel(count: u32) -> Result<Kernel, Error> {
         host.write(ACCELERATION)?.fill(DVec4::ZERO);
         Ok(())
     };
-    Ok(Kernel::new("clear", shader, Vec::new(), count, Arc::new(reference)))
+    Ok(Kernel::new("clear", shader, Vec::new(), count, Arc::new(reference)).alone())
 }
 
 /// Clears them in the first kernel that adds to them, if possible: it sets accelerations instead.

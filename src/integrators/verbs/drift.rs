@@ -16,5 +16,5 @@ pub fn kernel(count: u32, factor: f64) -> Result<Kernel, Error> {
         }
         Ok(())
     };
-    Ok(Kernel::new("drift", shader, vec![("FACTOR", factor)], count, Arc::new(reference)))
+    Ok(Kernel::new("drift", shader, vec![("FACTOR", factor)], count, Arc::new(reference)).alone())
 }

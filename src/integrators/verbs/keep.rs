@@ -16,7 +16,7 @@ pub fn copy(count: u32, name: &str, from: Field<Vec4>, to: Field<Vec4>) -> Resul
         host.write(to)?.copy_from_slice(&host.read(from)?);
         Ok(())
     };
-    let mut kernel = Kernel::new(name, shader, Vec::new(), count, Arc::new(reference));
+    let mut kernel = Kernel::new(name, shader, Vec::new(), count, Arc::new(reference)).alone();
     let fields = [("acceleration", from.name.into()), ("kept_acceleration", to.name.into())];
     kernel.passes = kernel.passes.into_iter().map(|pass| pass.on(&fields)).collect();
     Ok(kernel)
@@ -29,7 +29,7 @@ pub fn keep(count: u32) -> Result<Kernel, Error> {
         host.write(KEPT)?.copy_from_slice(&host.read(ACCELERATION)?);
         Ok(())
     };
-    Ok(Kernel::new("keep", shader, Vec::new(), count, Arc::new(reference)))
+    Ok(Kernel::new("keep", shader, Vec::new(), count, Arc::new(reference)).alone())
 }
 
 /// Restores them.
@@ -39,5 +39,5 @@ pub fn restore(count: u32) -> Result<Kernel, Error> {
         host.write(ACCELERATION)?.copy_from_slice(&host.read(KEPT)?);
         Ok(())
     };
-    Ok(Kernel::new("restore", shader, Vec::new(), count, Arc::new(reference)))
+    Ok(Kernel::new("restore", shader, Vec::new(), count, Arc::new(reference)).alone())
 }

@@ -17,5 +17,5 @@ pub fn kernel(count: u32, kick: f64, drift: f64) -> Result<Kernel, Error> {
         }
         Ok(())
     };
-    Ok(Kernel::new("kick+drift", shader, vec![("KICK", kick), ("DRIFT", drift)], count, Arc::new(reference)))
+    Ok(Kernel::new("kick+drift", shader, vec![("KICK", kick), ("DRIFT", drift)], count, Arc::new(reference)).alone())
 }

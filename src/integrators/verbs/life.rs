@@ -114,7 +114,8 @@ fn drain(problem: &Problem, drain: Drain, number: u32) -> Result<Kernel, Error> 
         }
         Ok(())
     };
-    let pass = Pass { constants, uniforms: vec![("params", params)], ..Pass::new(shader, problem.capacity) };
+    let pass =
+        Pass { constants, uniforms: vec![("params", params)], alone: true, ..Pass::new(shader, problem.capacity) };
     Ok(Kernel {
         name: format!("drain {number}"),
         passes: vec![pass],
@@ -167,5 +168,5 @@ fn rest(problem: &Problem) -> Result<Kernel, Error> {
         acceleration.iter_mut().enumerate().filter(|(id, _)| !is_active(*id)).for_each(|(_, a)| *a = DVec4::ZERO);
         Ok(())
     };
-    Ok(Kernel::new("rest", shader, Vec::new(), problem.capacity, Arc::new(reference)))
+    Ok(Kernel::new("rest", shader, Vec::new(), problem.capacity, Arc::new(reference)).alone())
 }

@@ -35,7 +35,8 @@ pub fn save(count: u32) -> Result<Kernel, Error> {
         Vec::new(),
         count,
         Arc::new(reference),
-    ))
+    )
+    .alone())
 }
 
 /// A stage: adds `weight` times the slopes to the sum, and advances to `factor` of the step from its start for the next slopes.
@@ -61,7 +62,8 @@ pub fn stage(count: u32, weight: f64, factor: f64) -> Result<Kernel, Error> {
         constants,
         count,
         Arc::new(reference),
-    ))
+    )
+    .alone())
 }
 
 /// The end of the step, with the weight of the last slopes.
@@ -84,5 +86,6 @@ pub fn finish(count: u32, weight: f64) -> Result<Kernel, Error> {
         constants,
         count,
         Arc::new(reference),
-    ))
+    )
+    .alone())
 }

@@ -9,8 +9,8 @@ use crate::kernel::{ACCELERATION, ALARM, ALARM_WORDS, Kernel, POSITION, Problem,
 /// once, whatever the step, and then grows ever more slowly.
 const OFTEN: u32 = 7;
 
-/// The kernel.
-pub fn kernel(problem: &Problem) -> Result<Kernel, Error> {
+/// The kernel; it may run before the last steps, `ahead`, are counted.
+pub fn kernel(problem: &Problem, ahead: u32) -> Result<Kernel, Error> {
     let visit = if problem.machine.software {
         crate::shader!("integrators/watch_each.wgsl")
     } else {
@@ -22,8 +22,8 @@ pub fn kernel(problem: &Problem) -> Result<Kernel, Error> {
         crate::shader!("integrators/watch.wgsl"),
         visit,
     ])?;
-    let reference = |host: &crate::kernel::Host| {
-        let done = host.world().step;
+    let reference = move |host: &crate::kernel::Host| {
+        let done = host.world().step + ahead;
         let (position, velocity, acceleration) = (host.read(POSITION)?, host.read(VELOCITY)?, host.read(ACCELERATION)?);
         // Numbers beyond single precision end a run on every backend.
         let fits = |v: glam::DVec4| v.as_vec4().is_finite();
@@ -47,6 +47,7 @@ pub fn kernel(problem: &Problem) -> Result<Kernel, Error> {
         }
         Ok(())
     };
-    let kernel = Kernel::new("watch", shader, Vec::new(), problem.capacity, Arc::new(reference));
-    Ok(Kernel { sizes: vec![(ALARM.name.into(), ALARM_WORDS as u64)], ..kernel })
+    let constants = vec![("AHEAD", f64::from(ahead))];
+    let kernel = Kernel::new("watch", shader, constants, problem.capacity, Arc::new(reference)).alone();
+    Ok(Kernel { name: "watch".to_owned(), sizes: vec![(ALARM.name.into(), ALARM_WORDS as u64)], ..kernel })
 }

@@ -224,7 +224,7 @@ fn the_watch_sees_what_is_broken() {
             simulation.backend().write_bytes(field.name, 0, bits).expect("a field");
             judge(&verdicts(simulation.backend(), &alone(watch), count, &"watch"), count, &"watch", |_| false);
             match pollster::block_on(simulation.check()) {
-                Err(motes::Error::NotFinite { particle, step: 2 }) => assert_eq!(particle as usize, id),
+                Err(motes::Error::NotFinite { particle, step: 3 }) => assert_eq!(particle as usize, id),
                 other => panic!("{bad} in particle {id}: {other:?}"),
             }
         }

@@ -55,30 +55,41 @@ pub fn restore(part: &Part, problem: &Problem) -> Result<Kernel, Error> {
 }
 
 #[derive(Clone)]
-struct Watch(Part);
+struct Watch {
+    part: Part,
+    ahead: u32,
+}
 
 impl Work for Watch {
     fn run<T: Real>(&self, host: &Host) -> Result<(), Error> {
-        let (done, value) = (host.world().step, host.reading::<T>(&self.0.buffer)?);
-        let first = value.iter().position(|y| !T::is_finite(*y, &self.0.components));
+        let (done, value) = (host.world().step + self.ahead, host.reading::<T>(&self.part.buffer)?);
+        let first = value.iter().position(|y| !T::is_finite(*y, &self.part.components));
         let mut alarm = host.write(ALARM)?;
         if let ([broken, id, ..], Some(first)) = (&mut alarm[..], first)
             && *broken >= done
         {
-            (*broken, *id) = (done, (*id).min(u32::try_from(first / self.0.slots()).unwrap_or(u32::MAX)));
+            (*broken, *id) = (done, (*id).min(u32::try_from(first / self.part.slots()).unwrap_or(u32::MAX)));
         }
         Ok(())
     }
 }
 
-/// Raises the alarm when a column of particles is not finite.
-pub fn watch(part: &Part, problem: &Problem) -> Result<Option<Kernel>, Error> {
+/// Raises the alarm when a column of particles is not finite; it may run before the last steps, `ahead`, are counted.
+pub fn watch(part: &Part, ahead: u32, problem: &Problem) -> Result<Option<Kernel>, Error> {
     if matches!(part.shape, Shape::System(_)) {
         return Ok(None);
     }
     let fields = vec![("value", part.buffer.clone())];
     let file = crate::shader!("integrators/pairs/watch.wgsl");
-    let mut kernel = kernel("watch", part, file, &[], fields, problem, Watch(part.clone()))?;
+    let mut kernel = kernel(
+        "watch",
+        part,
+        file,
+        &[("AHEAD", f64::from(ahead))],
+        fields,
+        problem,
+        Watch { part: part.clone(), ahead },
+    )?;
     kernel.sizes.push((ALARM.name.into(), ALARM_WORDS as u64));
     Ok(Some(kernel))
 }

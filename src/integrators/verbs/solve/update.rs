@@ -30,7 +30,7 @@ pub fn reach(count: u32, factor: f64) -> Result<Kernel, Error> {
         }
         Ok(())
     };
-    Ok(Kernel::new("reach", shader, vec![("FACTOR", factor)], count, reference(run)))
+    Ok(Kernel::new("reach", shader, vec![("FACTOR", factor)], count, reference(run)).alone())
 }
 
 /// v ← 2 v − v₀
@@ -43,5 +43,5 @@ pub fn extrapolate(count: u32) -> Result<Kernel, Error> {
         }
         Ok(())
     };
-    Ok(Kernel::new("extrapolate", shader, Vec::new(), count, reference(run)))
+    Ok(Kernel::new("extrapolate", shader, Vec::new(), count, reference(run)).alone())
 }

@@ -1,0 +1,124 @@
+//! Kernels that treat each particle alone, fused: neighbours in a plan become one dispatch, which moves the data of a particle once.
+//! A plan stays as it is; a backend asks for the fused one when it compiles.
+
+use std::collections::HashSet;
+use std::fmt::Write as _;
+use std::sync::Arc;
+
+use super::merge::Merged;
+use super::{ALARM, Access, Binding, Host, Kernel, Name, Op, Pass, Plan, Reference, Shader};
+
+/// Storage buffers of a shader, by WebGPU's default limits.
+const STORAGE: usize = 8;
+/// Uniform blocks of a shader, `world` among them. The limit is 12; llvmpipe of Mesa 22.3 ends by a signal now and then with 11.
+const UNIFORMS: usize = 6;
+
+impl Plan {
+    /// The same operations, in which kernels that follow one another and treat each particle alone are one kernel.
+    #[must_use]
+    pub fn fused(&self) -> Self {
+        let mut plan = Self::default();
+        plan.ops = self.fused_ops(&self.ops, &mut plan);
+        plan
+    }
+    fn fused_ops(&self, ops: &[Op], into: &mut Self) -> Vec<Op> {
+        let (mut made, mut row): (Vec<Op>, Vec<&Kernel>) = (Vec::new(), Vec::new());
+        for op in ops {
+            let kernel = match op {
+                Op::Run(index) => self.kernels.get(*index),
+                Op::Repeat { .. } => None,
+            };
+            if kernel.is_none_or(|kernel| !continues(&row, kernel)) {
+                into.take(&mut row, &mut made);
+            }
+            match op {
+                Op::Run(_) => row.extend(kernel),
+                Op::Repeat { most, until, body } => {
+                    let body = self.fused_ops(body, into);
+                    made.push(Op::Repeat { most: *most, until: until.clone(), body });
+                }
+            }
+        }
+        into.take(&mut row, &mut made);
+        made
+    }
+    /// Takes a row of kernels as one, or one by one where they cannot be fused.
+    fn take(&mut self, row: &mut Vec<&Kernel>, made: &mut Vec<Op>) {
+        let fused = if row.len() > 1 { fused(row) } else { None };
+        let kernels = fused.map_or_else(|| row.iter().copied().cloned().collect(), |kernel| vec![kernel]);
+        made.extend(kernels.into_iter().map(|kernel| Op::Run(self.place(kernel))));
+        row.clear();
+    }
+}
+
+/// The dispatch of a kernel that treats each particle alone.
+fn alone(kernel: &Kernel) -> Option<&Pass> {
+    match kernel.passes.as_slice() {
+        [pass] if pass.alone && pass.indirect.is_none() && pass.threads.layers <= 1 => Some(pass),
+        _ => None,
+    }
+}
+
+/// Whether a kernel can be fused with a row of others, to run after them: as many particles, and buffers within the limits of a shader.
+fn continues(row: &[&Kernel], kernel: &Kernel) -> bool {
+    let (Some(last), Some(next)) = (row.last().and_then(|last| alone(last)), alone(kernel)) else { return false };
+    let alike =
+        last.threads == next.threads && last.shader.reflection().workgroup == next.shader.reflection().workgroup;
+    let (mut storage, mut blocks) = (HashSet::new(), HashSet::new());
+    for (place, kernel) in row.iter().copied().chain([kernel]).enumerate() {
+        for (field, binding) in kernel.bindings() {
+            match binding.access {
+                Access::Uniform => blocks.insert((field, block(kernel, &binding.name).then_some(place))),
+                Access::Read | Access::Write => storage.insert(field),
+            };
+        }
+    }
+    alike && storage.len() <= STORAGE && blocks.len() <= UNIFORMS && row.iter().all(|before| !meets(before, kernel))
+}
+
+/// Whether two kernels use a field, of which one writes, that does not have one element for each particle: its elements have no owners. The
+/// words of the alarm are maxima and minima, in any order.
+fn meets(one: &Kernel, other: &Kernel) -> bool {
+    let writes = |binding: &Binding| binding.access == Access::Write;
+    one.bindings().any(|(field, binding)| {
+        let shared = || other.bindings().any(|(name, its)| name == field && (writes(binding) || writes(its)));
+        let sized = one.size(field).is_some() || other.size(field).is_some() || !binding.array;
+        sized && field != ALARM.name && binding.access != Access::Uniform && shared()
+    })
+}
+
+/// Whether a uniform block of a kernel has contents of its own.
+fn block(kernel: &Kernel, name: &str) -> bool {
+    kernel.passes.iter().flat_map(|pass| &pass.uniforms).any(|(known, _)| *known == name)
+}
+
+/// The kernels as one; `None` where their shaders have something that is not merged.
+fn fused(row: &[&Kernel]) -> Option<Kernel> {
+    let passes: Vec<&Pass> = row.iter().filter_map(|kernel| alone(kernel)).collect();
+    let (first, mut merged) = (*passes.first()?, Merged::new());
+    let mut text = String::new();
+    for pass in &passes {
+        merged.add(pass)?;
+        let _ = writeln!(text, "{}\n// {:?} {:?}", pass.shader.text(), pass.constants, pass.fields);
+    }
+    let uniforms = merged.take_uniforms();
+    let shader = Arc::new(Shader::merged(&passes, text, merged.module(first.shader.reflection().workgroup))?);
+    let pass = Pass {
+        uniforms,
+        alone: true,
+        work: passes.iter().map(|pass| pass.work).max().unwrap_or(0),
+        ..Pass::new(shader, first.threads.count)
+    };
+    let references: Option<Vec<Reference>> = row.iter().map(|kernel| kernel.reference.clone()).collect();
+    let reference = references
+        .map(|all| -> Reference { Arc::new(move |host: &Host| all.iter().try_for_each(|reference| reference(host))) });
+    let all = |of: fn(&Kernel) -> &Vec<(Name, u64)>| row.iter().flat_map(|kernel| of(kernel).clone()).collect();
+    Some(Kernel {
+        name: row.iter().map(|kernel| kernel.name.as_str()).collect::<Vec<_>>().join(" + "),
+        passes: vec![pass],
+        reference,
+        sizes: all(|kernel| &kernel.sizes),
+        scratch: row.iter().flat_map(|kernel| kernel.scratch.clone()).collect(),
+        tables: row.iter().flat_map(|kernel| kernel.tables.clone()).collect(),
+    })
+}
