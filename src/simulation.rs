@@ -22,6 +22,7 @@ mod set;
 mod setup;
 mod solves;
 mod spawn;
+mod tables;
 mod ties;
 mod unwritten;
 mod virial;

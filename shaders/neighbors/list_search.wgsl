@@ -16,7 +16,7 @@ fn put(slot: u32, n: u32, id: u32) { list_found[(1u + n / 4u) * world.capacity +
 
 fn gather(me: Particle, you: Particle, r: vec3f, sum: ptr<function, Sum>) {
     // The grid searches slightly farther than the reach. The stored positions decide, and not their images in the box.
-    let way = shortest(position[you.index].xyz - position[me.index].xyz);
+    let way = shortest(stored(you) - stored(me));
     if way.x * way.x + way.y * way.y + way.z * way.z < REACH * REACH {
         if (*sum).number < ROOM { put(me.slot, (*sum).number, you.index); }
         (*sum).number += 1u;

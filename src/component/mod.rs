@@ -339,7 +339,15 @@ pub fn carry(laws: Vec<Law>, earlier: usize, plan: &mut Plan, problem: &Problem)
 fn add(laws: impl Iterator<Item = Law>, earlier: usize, plan: &mut Plan, problem: &Problem) -> Result<(), Error> {
     for law in laws {
         let name = numbered(&law.name, earlier);
-        plan.push(&name, || law.kernel(problem))?;
+        let tables: Vec<_> = law.tables.iter().map(|(table, _)| table.clone()).collect();
+        plan.push(&name, || {
+            let mut kernel = Law { name: name.clone(), ..law }.kernel(problem)?;
+            // Another force of the same file has tables of the same names.
+            for table in tables.iter().filter(|_| earlier > 0) {
+                kernel.rename(table, &numbered(table, earlier).into());
+            }
+            Ok(kernel)
+        })?;
     }
     Ok(())
 }

@@ -5,11 +5,11 @@ use std::sync::Arc;
 use glam::{DVec4, Vec4};
 
 use super::barostat::{TOTAL, due};
-use super::{Component, Stage};
+use super::{Component, Stage, earlier, numbered};
 use crate::error::Error;
 use crate::kernel::{Field, Host, Indirect, Kernel, Name, POSITION, Pass, Plan, Problem, Reference, Shader, VELOCITY};
 use crate::primitives::{Items, Operation, reduce};
-use crate::visit::{VIRIAL, clear_virial, no_virial};
+use crate::visit::{Law, VIRIAL, clear_virial, no_virial};
 
 /// m v², the virial, and whether forces add up, of each particle.
 const PARTS: Field<Vec4> = Field::new("pressure_parts");
@@ -30,7 +30,7 @@ pub(crate) fn virial(forces: &[Box<dyn Component>], problem: &Problem) -> Result
         return Err(no_virial("rod", "constrains distances"));
     }
     let mut kernels = vec![clear_virial(problem)?];
-    for force in forces {
+    for (place, force) in forces.iter().enumerate() {
         let laws = force.laws();
         let mut evaluated = Plan::default();
         force.stage(Stage::Evaluate { earlier: 0 }, &mut evaluated, problem)?;
@@ -38,7 +38,9 @@ pub(crate) fn virial(forces: &[Box<dyn Component>], problem: &Problem) -> Result
             let name = laws.first().map_or_else(|| force.name().to_owned(), |law| law.name.clone());
             return Err(no_virial(&name, "has more than the forces of pairs"));
         }
+        let before = earlier(forces, place);
         for law in laws {
+            let law = Law { name: numbered(&law.name, before), ..law };
             kernels.extend(law.virial(problem)?);
         }
     }

@@ -63,7 +63,8 @@ impl Pipelines {
     fn check(&self, shader: &Shader) -> Result<(), Error> {
         let (limits, reflection) = (self.device.limits(), shader.reflection());
         let storage = reflection.bindings.iter().filter(|b| b.access != Access::Uniform).count();
-        let file = shader.sources().last().map_or("a shader", |s| &s.file);
+        let theirs = shader.sources().iter().rfind(|source| !source.ours);
+        let file = theirs.or(shader.sources().last()).map_or("a shader", |source| &source.file);
         let over = |what: &str, need: u64, limit: u64| {
             if need > limit {
                 return Err(Error::Limit(format!("{file} needs {need} {what}; this device has {limit}")));

@@ -12,6 +12,8 @@ use super::{ALARM, Access, Binding, Host, Kernel, Name, Op, Pass, Plan, Referenc
 const STORAGE: usize = 8;
 /// Uniform blocks of a shader, `world` among them. The limit is 12; llvmpipe of Mesa 22.3 ends by a signal now and then with 11.
 const UNIFORMS: usize = 6;
+/// Bytes of workgroup memory of a shader, by WebGPU's default limits.
+const WORKGROUP_BYTES: u64 = 16_384;
 
 impl Plan {
     /// The same operations, in which kernels that follow one another and treat each particle alone are one kernel.
@@ -73,7 +75,13 @@ fn continues(row: &[&Kernel], kernel: &Kernel) -> bool {
             };
         }
     }
-    alike && storage.len() <= STORAGE && blocks.len() <= UNIFORMS && row.iter().all(|before| !meets(before, kernel))
+    let shared = |kernel: &&Kernel| alone(kernel).map_or(0, |pass| pass.shader.reflection().workgroup_bytes);
+    let bytes: u64 = row.iter().chain([&kernel]).map(shared).sum();
+    alike
+        && bytes <= WORKGROUP_BYTES
+        && storage.len() <= STORAGE
+        && blocks.len() <= UNIFORMS
+        && row.iter().all(|before| !meets(before, kernel))
 }
 
 /// Whether two kernels use a field, of which one writes, that does not have one element for each particle: its elements have no owners. The

@@ -42,7 +42,7 @@ pub struct Pass {
     pub uniforms: Vec<(&'static str, Vec<u8>)>,
     /// Names in the shader that stand for another field: the name there, and the field. One shader may so serve many
     /// fields: a scan scans whatever it is given.
-    pub fields: Vec<(&'static str, Name)>,
+    pub fields: Vec<(Name, Name)>,
     /// The number of invocations.
     pub threads: Threads,
     /// The location of its workgroup counts, if these are known only on the device. A dispatch without workgroups costs next to nothing.
@@ -65,7 +65,7 @@ impl Pass {
     /// The same with fields bound to names of the shader.
     #[must_use]
     pub fn on(mut self, fields: &[(&'static str, Name)]) -> Self {
-        self.fields.extend_from_slice(fields);
+        self.fields.extend(fields.iter().map(|(inside, field)| (Name::from(*inside), field.clone())));
         self
     }
     /// The field that a name of the shader is bound to.

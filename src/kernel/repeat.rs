@@ -40,7 +40,7 @@ pub fn proceed(flag: &Flag, words: u32, slots: u32) -> Result<Kernel, Error> {
     let shader = Shader::join(&[crate::shader!("repeat/proceed.wgsl")])?;
     let constants = vec![("WORD", f64::from(flag.word)), ("WORDS", f64::from(words))];
     let mut kernel = Kernel::new("proceed", shader, constants, 1, Arc::new(reference));
-    kernel.passes[0].fields.push(("flag", flag.field.clone()));
+    kernel.passes[0].fields.push(("flag".into(), flag.field.clone()));
     let words = u64::from(words);
     kernel.sizes = vec![
         (flag.field.clone(), u64::from(flag.word) + 1),

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use glam::DVec3;
 
-use super::{columns, inactive, initial_projection, lists, pair_history, unwritten};
+use super::{columns, inactive, initial_projection, lists, pair_history, tables, unwritten};
 use crate::boundary;
 use crate::component;
 use crate::crowds;
@@ -110,6 +110,7 @@ impl Setup {
         integrators::check_precision(self.integrator.as_ref(), [&plans.start, &plans.step])?;
         claims(&plans.all(), &columns)?;
         pair_history::once(&self.forces, &plans.step)?;
+        tables::agree(plans.all())?;
         unwritten::check(&plans, &columns)?;
         Ok(plans)
     }

@@ -42,6 +42,6 @@ pub fn walls(medium: &Medium, weighs: WallMass, problem: &Problem) -> Result<Ker
     let (wgsl, params) = (crate::shader!("sph/walls.wgsl"), vec![("mass", Scalar::Float(mass))]);
     let law = Law::searching("fluid walls", search, wgsl, params, &[WEIGHED], gather, finish);
     let mut kernel = law.kernel(problem)?;
-    kernel.passes.iter_mut().for_each(|pass| pass.fields.push((WEIGHED, POSITION.name.into())));
+    kernel.passes.iter_mut().for_each(|pass| pass.fields.push((WEIGHED.into(), POSITION.name.into())));
     Ok(kernel)
 }

@@ -113,7 +113,7 @@ impl Tree {
     /// A pass over all particles that finds places under the name of positions.
     fn placed(&self, files: &[Source]) -> Result<Pass, Error> {
         let mut pass = self.each(files, self.count)?;
-        pass.fields.push((POSITION.name, self.places().name.into()));
+        pass.fields.push((POSITION.name.into(), self.places().name.into()));
         Ok(pass)
     }
 

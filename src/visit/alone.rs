@@ -9,13 +9,12 @@ const OWN: [&[&str]; 5] = [&["i"], &["id"], &["index"], &["me", ".", "index"], &
 impl Law {
     /// Marks the kernel of a law of each particle alone, unless its files might look at another one.
     pub(super) fn mark_alone(&self, kernel: &mut Kernel) {
-        let sized = |name: &str| kernel.size(name).is_some();
         let columns: Vec<String> = kernel
-            .passes
-            .iter()
-            .flat_map(|pass| &pass.shader.reflection().bindings)
-            .filter(|binding| binding.access != Access::Uniform && binding.array && !sized(&binding.name))
-            .map(|binding| binding.name.clone())
+            .bindings()
+            .filter(|(field, binding)| {
+                binding.access != Access::Uniform && binding.array && kernel.size(field).is_none()
+            })
+            .map(|(_, binding)| binding.name.clone())
             .collect();
         let alone = self.over == Over::Each && !self.has_loops() && {
             let mut files = kernel.passes.iter().flat_map(|pass| pass.shader.sources());

@@ -407,8 +407,13 @@ impl Law {
             tables.push((table.clone(), binding.stride));
         }
         for (table, stride) in tables {
-            kernel.sizes.push((table.0.clone(), 4 * table.1.len() as u64 / stride.max(1)));
-            kernel.tables.push(table);
+            let (inside, words) = table;
+            // Each law has one of this name.
+            let field = if inside == PAIR_TABLE { format!("{inside} of {}", self.name).into() } else { inside.clone() };
+            kernel.sizes.push((field.clone(), 4 * words.len() as u64 / stride.max(1)));
+            let binds = |pass: &&mut crate::kernel::Pass| pass.shader.reflection().binding(&inside).is_some();
+            kernel.passes.iter_mut().filter(binds).for_each(|pass| pass.fields.push((inside.clone(), field.clone())));
+            kernel.tables.push((field, words));
         }
         Ok(())
     }

@@ -61,11 +61,17 @@ pub fn search(grid: &Grid, machine: &Machine, candidate: Candidate) -> Vec<Sourc
         None => crate::shader!("visit/near_slots.wgsl"),
     };
     let mut files = vec![candidate.particle, by];
-    match (machine.software, machine.subgroup) {
-        (true, 8) => files.extend([candidate.broadcast, crate::shader!("visit/near_subgroup.wgsl")]),
-        _ => files.extend([crate::shader!("visit/near_walk.wgsl"), crate::shader!("visit/near_lanes.wgsl")]),
+    if broadcasts(machine) {
+        files.extend([candidate.broadcast, crate::shader!("visit/near_subgroup.wgsl")]);
+    } else {
+        files.extend([crate::shader!("visit/near_walk.wgsl"), crate::shader!("visit/near_lanes.wgsl")]);
     }
     files
+}
+
+/// Whether a search passes candidates round its subgroup.
+pub fn broadcasts(machine: &Machine) -> bool {
+    machine.software && machine.subgroup == 8
 }
 
 /// The files of every search.

@@ -58,7 +58,9 @@ impl Search {
     pub(super) fn bind(&self, kernel: &mut Kernel) {
         let cells = f64::from(self.grid.count());
         for pass in &mut kernel.passes {
-            pass.fields.extend(self.sorted.iter().map(|name| self.grid.field(name)));
+            pass.fields.extend(
+                self.sorted.iter().map(|name| self.grid.field(name)).map(|(inside, field)| (inside.into(), field)),
+            );
             let ends = pass.constants.iter_mut().filter(|(name, _)| *name == "CELLS" && !self.fixed);
             ends.for_each(|(_, end)| *end = cells);
         }

@@ -180,7 +180,7 @@ pub fn kernel(law: Law, tree: &Tree, problem: &Problem) -> Result<Kernel, Error>
         let look = |of: &Pass, rest: &Arc<Shader>| Pass {
             constants: [&constants[..], &[("ROW", f64::from(machine.workgroups))]].concat(),
             uniforms: of.uniforms.iter().filter(|(name, _)| *name == "tree").cloned().collect(),
-            fields: [&of.fields[..], &[("tree_go", GO.into())]].concat(),
+            fields: [&of.fields[..], &[("tree_go".into(), GO.into())]].concat(),
             ..Pass::new(rest.clone(), rest.reflection().workgroup)
         };
         passes.push(walk(0)?);

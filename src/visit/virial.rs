@@ -60,7 +60,7 @@ impl Law {
         kernel.sizes.iter_mut().for_each(|(name, _)| parts(name));
         kernel.scratch.iter_mut().for_each(parts);
         let binds = |pass: &&mut Pass| pass.shader.reflection().binding(PARTS.0).is_some();
-        kernel.passes.iter_mut().filter(binds).for_each(|pass| pass.fields.push((PARTS.0, PARTS.1.into())));
+        kernel.passes.iter_mut().filter(binds).for_each(|pass| pass.fields.push((PARTS.0.into(), PARTS.1.into())));
         kernel.sizes.push((VIRIAL.name.into(), 2 * u64::from(problem.capacity)));
         Ok(Some(kernel))
     }

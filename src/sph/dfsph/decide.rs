@@ -41,7 +41,7 @@ fn tally(of: &Dfsph<'_>, solve: Solve) -> Result<Kernel, Error> {
     let files = [crate::shader!("integrators/solve_total.wgsl"), crate::shader!("sph/dfsph/tally.wgsl")];
     let name = format!("fluid {} tally", solve.name());
     let mut kernel = of.plain(&name, &files, &extent(count), groups * WORKGROUP, Arc::new(reference))?;
-    kernel.passes[0].fields.push((PARTS, parts.clone()));
+    kernel.passes[0].fields.push((PARTS.into(), parts.clone()));
     kernel.sizes.push((parts, u64::from(groups)));
     Ok(kernel)
 }
@@ -79,7 +79,7 @@ fn decide(of: &Dfsph<'_>, solve: Solve, what: &'static str, elements: u32) -> Re
     let mut kernel = of.plain(&name, &files, &extent(elements), WORKGROUP, Arc::new(reference))?;
     let fields = &mut kernel.passes[0].fields;
     fields.retain(|(name, _)| *name != ERRORS);
-    fields.push((ERRORS, field.clone()));
+    fields.push((ERRORS.into(), field.clone()));
     kernel.sizes.push((field, u64::from(elements)));
     let (least, most) = (f64::from(asked.least), f64::from(asked.most));
     let constants = [("SOLVE", f64::from(solve as u32)), ("TOLERANCE", tolerance), ("LEAST", least), ("MOST", most)];

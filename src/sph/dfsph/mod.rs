@@ -203,8 +203,12 @@ impl<'a> Dfsph<'a> {
         let own = [UNKNOWNS, PUSHES, ERRORS];
         let fields: Vec<_> = sorted.iter().chain(&own).map(|name| self.grid.field(name)).collect();
         for pass in &mut kernel.passes {
-            let bound = |name: &str| pass.fields.iter().any(|(inside, _)| *inside == name);
-            let new: Vec<_> = fields.iter().filter(|(name, _)| !bound(name)).cloned().collect();
+            let bound = |name: &str| pass.fields.iter().any(|(inside, _)| inside == name);
+            let new: Vec<_> = fields
+                .iter()
+                .filter(|(name, _)| !bound(name))
+                .map(|(name, field)| ((*name).into(), field.clone()))
+                .collect();
             pass.fields.extend(new);
         }
         let (starts, bins) = (self.name(STARTS), u64::from(self.grid.bins()));

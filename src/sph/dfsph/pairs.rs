@@ -87,7 +87,7 @@ impl Pairs {
     fn bound(self, of: &Dfsph<'_>, kernel: Kernel) -> Kernel {
         let mut kernel = super::with(kernel, &self.constants());
         let (inside, pairs) = of.grid.field(PAIRS);
-        kernel.passes.iter_mut().for_each(|pass| pass.fields.push((inside, pairs.clone())));
+        kernel.passes.iter_mut().for_each(|pass| pass.fields.push((inside.into(), pairs.clone())));
         kernel.sizes.push((pairs, self.elements()));
         kernel
     }

@@ -81,7 +81,11 @@ pub fn kernel(list: List, problem: &Problem) -> Result<Kernel, Error> {
 /// Finds the neighbours of all particles, fixed ones too, in the order of the cells.
 fn search(list: &List, problem: &Problem) -> Result<Vec<Pass>, Error> {
     let candidate = Candidate {
-        particle: crate::shader!("neighbors/list_candidate.wgsl"),
+        particle: if near::broadcasts(&problem.machine) {
+            crate::shader!("neighbors/list_stored.wgsl")
+        } else {
+            crate::shader!("neighbors/list_candidate.wgsl")
+        },
         broadcast: crate::shader!("neighbors/list_broadcast.wgsl"),
     };
     let mut sources = near::ground();

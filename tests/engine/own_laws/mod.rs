@@ -2,5 +2,6 @@
 #![allow(clippy::float_cmp, reason = "sums of whole numbers are exact")]
 
 mod refusals;
+mod tables;
 mod turns;
 mod visits;

@@ -146,7 +146,7 @@ fn without_births_nothing_is_added() {
     let more = setup.plans(machine).expect("plans").step.to_string();
     let rest = more.replace("rest | ", "").replace(" | drain 1 | drain 2", "");
     assert!(more != plain && rest == plain, "{more}\n{plain}");
-    assert!(more.ends_with("tick | drain 1 | drain 2 | watch"), "{more}");
+    assert!(more.ends_with("watch | tick | drain 1 | drain 2"), "{more}");
 }
 
 /// Rows that wait at one place are no fluid that would explode.

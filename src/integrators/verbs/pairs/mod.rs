@@ -172,7 +172,7 @@ pub fn kernel(
         Arc::new(move |host: &Host| work.run::<f32>(host))
     };
     let (sizes, threads) = (sizes(&fields), Threads::new(number));
-    let pass = Pass { constants, fields, threads, alone: true, ..Pass::new(shader, number) };
+    let pass = Pass { constants, threads, alone: true, ..Pass::new(shader, number) }.on(&fields);
     let factors =
         pass.constants.iter().filter(|(name, value)| ["FACTOR", "WEIGHT"].contains(name) && (*value - 1.0).abs() > 0.0);
     let factors = factors.map(|(name, value)| format!(" {name}={}", crate::kernel::short(*value)));

@@ -1,0 +1,88 @@
+//! Tables of laws of one's own: each law has its own, whatever their names.
+
+use std::sync::Arc;
+
+use motes::forces::{Component, Custom, Over};
+use motes::kernel::ACCELERATION;
+use motes::scene::{Options, Scene, Source};
+use motes::{Cpu, Setup, Simulation};
+
+use crate::support::device;
+use crate::support::scenes::setup;
+
+const SCENE: &str = r#"
+[simulation]
+dt = 0.01
+steps = 1
+integrator = "forward_euler"
+[[particles]]
+bodies = [{ position = [0, 0, 0], mass = 1 }, { position = [1, 0, 0], mass = 1 }]
+"#;
+const LAW: &str = "
+struct Pair { strength: f32 }
+@group(3) @binding(1) var<storage, read> pair_table: array<Pair>;
+fn energy(me: Particle, you: Particle, distance: f32, inverse: f32) -> Energy {
+    let value = pair_table[pair_index(species[me.index], species[you.index])].strength * exp(-distance);
+    return Energy(value, -value);
+}";
+
+/// A law of each of these files with a strength.
+fn scene(laws: &[(&str, f64)]) -> Setup {
+    let mut text = SCENE.to_owned();
+    for (file, strength) in laws {
+        let pairs = format!("[{{ species = [0, 0], strength = {strength:?} }}]");
+        text.push_str(&format!("[[force]]\nwgsl = \"{file}\"\nover = \"pairs\"\npairs = {pairs}\n"));
+    }
+    let files = ["one.wgsl", "two.wgsl"].map(|name| (name.to_owned(), LAW.as_bytes().to_vec())).to_vec();
+    let source = Source::Memory { name: "own".to_owned(), text, files };
+    setup(Scene::load(&source, &[], &Options::default()).unwrap_or_else(|faults| panic!("{faults}")))
+}
+
+/// The acceleration of the first of two particles.
+fn pull(laws: &[(&str, f64)]) -> f32 {
+    let shared = device();
+    let mut simulation =
+        Simulation::new(&shared.found.device, &shared.found.queue, &scene(laws)).expect("a simulation");
+    simulation.step(1).expect("a step");
+    pollster::block_on(simulation.read(ACCELERATION)).expect("accelerations")[0].x
+}
+
+#[test]
+fn laws_have_tables_of_their_own() {
+    let unit = pull(&[("one.wgsl", 1.0)]);
+    assert!((f64::from(unit) + (-1.0_f64).exp()).abs() < 1e-6, "{unit}");
+    // Of two files, and twice of one.
+    for files in [["one.wgsl", "two.wgsl"], ["one.wgsl", "one.wgsl"]] {
+        let both = pull(&[(files[0], 1.0), (files[1], 64.0)]);
+        assert!((both / unit - 65.0).abs() < 1e-3, "{files:?}: {both} of {unit}");
+        let same = pull(&[(files[0], 3.0), (files[1], 3.0)]);
+        assert!((same / unit - 6.0).abs() < 1e-3, "{files:?}: {same} of {unit}");
+    }
+    // The references have no law of one's own, and say so.
+    assert!(Simulation::on(Cpu::new(2).expect("a backend"), &scene(&[("one.wgsl", 1.0)])).is_err());
+}
+
+/// A law that pulls along x by the number in its table.
+const DATA: &str = "
+@group(3) @binding(1) var<storage, read> data: array<f32>;
+fn force(me: Particle) -> vec4f { return vec4f(data[0], 0.0, 0.0, 0.0); }";
+
+#[test]
+fn data_is_of_one_force() {
+    let force = |file: &str, value: f32| -> Box<dyn Component> {
+        let tables = vec![("data".into(), Arc::new(vec![value.to_bits()]))];
+        let name = file.trim_end_matches(".wgsl");
+        Box::new(Custom { tables, ..Custom::new(name, file, DATA, Over::Each) })
+    };
+    let pull = |forces: Vec<Box<dyn Component>>| {
+        let shared = device();
+        let setup = Setup { forces, ..scene(&[]) };
+        let mut simulation = Simulation::new(&shared.found.device, &shared.found.queue, &setup)?;
+        simulation.step(1)?;
+        Ok::<f32, motes::Error>(pollster::block_on(simulation.read(ACCELERATION))?[0].x)
+    };
+    assert_eq!(pull(vec![force("one.wgsl", 2.0), force("one.wgsl", 64.0)]).expect("two of a file"), 66.0);
+    assert_eq!(pull(vec![force("one.wgsl", 2.0), force("two.wgsl", 2.0)]).expect("the same data"), 4.0);
+    let refused = pull(vec![force("one.wgsl", 2.0), force("two.wgsl", 64.0)]).expect_err("one name").to_string();
+    assert!(refused.contains("`one` and `two` fill the field `data` with different contents"), "{refused}");
+}
