@@ -28,5 +28,5 @@ pub fn advance(verb: &str, pair: &Advanced, factor: f64, problem: &Problem) -> R
     let work = Advance { pair: pair.clone(), factor, problem: problem.clone() };
     let fields = vec![("value", pair.part.buffer.clone()), ("rate", pair.rate.clone())];
     let file = crate::shader!("integrators/pairs/advance.wgsl");
-    kernel(verb, &pair.part, file, &[("FACTOR", factor)], fields, problem, work)
+    kernel(verb, &pair.part, file, &[("FACTOR", factor)], &fields, problem, work)
 }

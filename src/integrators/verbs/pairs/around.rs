@@ -18,7 +18,7 @@ impl Work for Clear {
 pub fn clear(part: &Part, problem: &Problem) -> Result<Kernel, Error> {
     let fields = vec![("value", part.buffer.clone())];
     let file = crate::shader!("integrators/pairs/clear.wgsl");
-    kernel("clear", part, file, &[], fields, problem, Clear(part.clone()))
+    kernel("clear", part, file, &[], &fields, problem, Clear(part.clone()))
 }
 
 #[derive(Clone)]
@@ -37,7 +37,7 @@ impl Work for Copy {
 fn copy(verb: &str, part: &Part, [from, to]: [Name; 2], problem: &Problem) -> Result<Kernel, Error> {
     let fields = vec![("from_field", from.clone()), ("to_field", to.clone())];
     let file = crate::shader!("integrators/pairs/copy.wgsl");
-    kernel(verb, part, file, &[], fields, problem, Copy { from, to })
+    kernel(verb, part, file, &[], &fields, problem, Copy { from, to })
 }
 
 fn kept(part: &Part) -> Name {
@@ -86,7 +86,7 @@ pub fn watch(part: &Part, ahead: u32, problem: &Problem) -> Result<Option<Kernel
         part,
         file,
         &[("AHEAD", f64::from(ahead))],
-        fields,
+        &fields,
         problem,
         Watch { part: part.clone(), ahead },
     )?;

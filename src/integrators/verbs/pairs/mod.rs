@@ -132,7 +132,7 @@ pub fn kernel(
     part: &Part,
     file: Source,
     constants: &[(&'static str, f64)],
-    fields: Vec<(&'static str, Name)>,
+    fields: &[(&'static str, Name)],
     problem: &Problem,
     work: impl Work,
 ) -> Result<Kernel, Error> {
@@ -171,8 +171,8 @@ pub fn kernel(
     } else {
         Arc::new(move |host: &Host| work.run::<f32>(host))
     };
-    let (sizes, threads) = (sizes(&fields), Threads::new(number));
-    let pass = Pass { constants, threads, alone: true, ..Pass::new(shader, number) }.on(&fields);
+    let (sizes, threads) = (sizes(fields), Threads::new(number));
+    let pass = Pass { constants, threads, alone: true, ..Pass::new(shader, number) }.on(fields);
     let factors =
         pass.constants.iter().filter(|(name, value)| ["FACTOR", "WEIGHT"].contains(name) && (*value - 1.0).abs() > 0.0);
     let factors = factors.map(|(name, value)| format!(" {name}={}", crate::kernel::short(*value)));

@@ -27,7 +27,7 @@ impl Work for Save {
 pub fn save(part: &Part, problem: &Problem) -> Result<Kernel, Error> {
     let fields = vec![("value", part.buffer.clone()), ("start", start(part)), ("slope", slope(part))];
     let file = crate::shader!("integrators/pairs/save.wgsl");
-    kernel("rk_save", part, file, &[], fields, problem, Save(part.clone()))
+    kernel("rk_save", part, file, &[], &fields, problem, Save(part.clone()))
 }
 
 fn fields(pair: &Advanced) -> Vec<(&'static str, Name)> {
@@ -61,7 +61,7 @@ impl Work for Stage {
 pub fn stage(pair: &Advanced, weight: f64, factor: f64, problem: &Problem) -> Result<Kernel, Error> {
     let work = Stage { pair: pair.clone(), weight, factor, problem: problem.clone() };
     let (file, constants) = (crate::shader!("integrators/pairs/stage.wgsl"), [("WEIGHT", weight), ("FACTOR", factor)]);
-    kernel("rk_stage", &pair.part, file, &constants, fields(pair), problem, work)
+    kernel("rk_stage", &pair.part, file, &constants, &fields(pair), problem, work)
 }
 
 #[derive(Clone)]
@@ -89,5 +89,5 @@ impl Work for Finish {
 pub fn finish(pair: &Advanced, weight: f64, problem: &Problem) -> Result<Kernel, Error> {
     let work = Finish { pair: pair.clone(), weight, problem: problem.clone() };
     let file = crate::shader!("integrators/pairs/finish.wgsl");
-    kernel("rk_finish", &pair.part, file, &[("WEIGHT", weight)], fields(pair), problem, work)
+    kernel("rk_finish", &pair.part, file, &[("WEIGHT", weight)], &fields(pair), problem, work)
 }
