@@ -137,7 +137,7 @@ impl<B: Backend> Simulation<B> {
         let (list, fields) = (plans.list, Fields::of(&plans, count));
         let repeat = lists::Repeat::of(&plans, list);
         let start = backend.compile(&plans.start)?;
-        let step = backend.compile(&plans.step)?;
+        let step = backend.compile_often(&plans.step)?;
         let measure = (backend.compile(&plans.measure.0)?, backend.compile(&plans.measure.1)?);
         let state = &setup.state;
         let store = Store::new(setup, &plans, count)?;

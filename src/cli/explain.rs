@@ -39,7 +39,7 @@ pub async fn explain(args: &ExplainArgs) -> Result<(), Failure> {
     let count = setup.check()?;
     let engine = Engine::choose(&args.device).await?;
     let plans = setup.plans(engine.machine(count)?)?;
-    let (start, step) = (engine.runs(&plans.start), engine.runs(&plans.step));
+    let (start, step) = (&plans.start, engine.runs(&plans.step));
     // Some kernels run more than once.
     let mut described: Vec<&Kernel> = Vec::new();
     for kernel in plans.step.steps() {
@@ -66,7 +66,9 @@ pub async fn explain(args: &ExplainArgs) -> Result<(), Failure> {
     if !plans.start.is_empty() {
         out!("once:  {start}");
     }
-    out!("step:  {step}\n");
+    out!("step:  {step}");
+    let fused = step.dispatches() < plans.step.dispatches();
+    out!("{}", if fused { "       kernels with ` + ` between them are one dispatch\n" } else { "" });
     described.iter().for_each(|kernel| out!("{}", describe(kernel)));
     Ok(())
 }

@@ -22,7 +22,7 @@ use crate::crowds::Press;
 use crate::error::Error;
 use crate::floor_plan::FloorPlan;
 use crate::grains::{ContactForce, Material};
-use crate::kernel::{Bounds, Column, Plan, Problem, Way};
+use crate::kernel::{Bounds, Column, Kernel, Plan, Problem, Table, Way};
 use crate::neighbors::Grid;
 use crate::settings::{Key, Settings, Value};
 use crate::solids::Standing;
@@ -339,17 +339,21 @@ pub fn carry(laws: Vec<Law>, earlier: usize, plan: &mut Plan, problem: &Problem)
 fn add(laws: impl Iterator<Item = Law>, earlier: usize, plan: &mut Plan, problem: &Problem) -> Result<(), Error> {
     for law in laws {
         let name = numbered(&law.name, earlier);
-        let tables: Vec<_> = law.tables.iter().map(|(table, _)| table.clone()).collect();
+        let tables = law.tables.clone();
         plan.push(&name, || {
             let mut kernel = Law { name: name.clone(), ..law }.kernel(problem)?;
-            // Another force of the same file has tables of the same names.
-            for table in tables.iter().filter(|_| earlier > 0) {
-                kernel.rename(table, &numbered(table, earlier).into());
-            }
+            number_tables(&mut kernel, &tables, earlier);
             Ok(kernel)
         })?;
     }
     Ok(())
+}
+
+/// Gives a kernel the tables of its own force: another one of the same file before it has tables of the same names.
+fn number_tables(kernel: &mut Kernel, tables: &[Table], earlier: usize) {
+    for (table, _) in tables.iter().filter(|_| earlier > 0) {
+        kernel.rename(table, &numbered(table, earlier).into());
+    }
 }
 
 /// Whether a law writes the rate of a column that is advanced with positions.

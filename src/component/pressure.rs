@@ -5,7 +5,7 @@ use std::sync::Arc;
 use glam::{DVec4, Vec4};
 
 use super::barostat::{TOTAL, due};
-use super::{Component, Stage, earlier, numbered};
+use super::{Component, Stage, earlier, number_tables, numbered};
 use crate::error::Error;
 use crate::kernel::{Field, Host, Indirect, Kernel, Name, POSITION, Pass, Plan, Problem, Reference, Shader, VELOCITY};
 use crate::primitives::{Items, Operation, reduce};
@@ -41,7 +41,9 @@ pub(crate) fn virial(forces: &[Box<dyn Component>], problem: &Problem) -> Result
         let before = earlier(forces, place);
         for law in laws {
             let law = Law { name: numbered(&law.name, before), ..law };
-            kernels.extend(law.virial(problem)?);
+            let mut kernel = law.virial(problem)?;
+            kernel.iter_mut().for_each(|kernel| number_tables(kernel, &law.tables, before));
+            kernels.extend(kernel);
         }
     }
     Ok(kernels)

@@ -236,9 +236,11 @@ impl Backend for Gpu {
                 self.write_bytes(&name, 0, bytemuck::cast_slice(words))?;
             }
         }
+        Program::new(&mut self.queue, &mut self.pipelines, &self.buffers, plan)
+    }
+    fn compile_often(&mut self, plan: &Plan) -> Result<Program, Error> {
         // A browser takes text, which a fused shader has none of.
-        let plan = if cfg!(target_arch = "wasm32") { plan.clone() } else { plan.fused() };
-        Program::new(&mut self.queue, &mut self.pipelines, &self.buffers, &plan)
+        if cfg!(target_arch = "wasm32") { self.compile(plan) } else { self.compile(&plan.fused()) }
     }
     fn run(&mut self, program: &Program, times: u32) -> Result<(), Error> {
         self.queue.run(program, times)

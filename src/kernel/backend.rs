@@ -75,6 +75,13 @@ pub trait Backend {
     /// [`Error::Limit`] when a field does not fit, [`Error::Shader`] when a shader does not compile,
     /// [`Error::Scene`] when the plan has a kernel that this backend cannot run.
     fn compile(&mut self, plan: &Plan) -> Result<Self::Program, Error>;
+    /// The same for a plan that runs often: a device fuses kernels of it, see [`Plan::fused`].
+    ///
+    /// # Errors
+    /// As [`Backend::compile`].
+    fn compile_often(&mut self, plan: &Plan) -> Result<Self::Program, Error> {
+        self.compile(plan)
+    }
     /// Runs a program a number of times, in order. May return before the device is done.
     ///
     /// # Errors

@@ -6,12 +6,14 @@ use std::fmt::Write as _;
 use std::sync::Arc;
 
 use super::merge::Merged;
-use super::{ALARM, Access, Binding, Host, Kernel, Name, Op, Pass, Plan, Reference, Shader};
+use super::{ALARM, Access, Host, Kernel, Name, Op, Pass, Plan, Reference, Shader};
 
 /// Storage buffers of a shader, by WebGPU's default limits.
 const STORAGE: usize = 8;
 /// Uniform blocks of a shader, `world` among them. The limit is 12; llvmpipe of Mesa 22.3 ends by a signal now and then with 11.
 const UNIFORMS: usize = 6;
+/// Expressions in the shader of a user's law that is fused: a driver takes long for a large one, and has compiled it for the start already.
+const LAW_EXPRESSIONS: usize = 500;
 /// Bytes of workgroup memory of a shader, by WebGPU's default limits.
 const WORKGROUP_BYTES: u64 = 16_384;
 
@@ -30,8 +32,8 @@ impl Plan {
                 Op::Run(index) => self.kernels.get(*index),
                 Op::Repeat { .. } => None,
             };
-            if kernel.is_none_or(|kernel| !continues(&row, kernel)) {
-                into.take(&mut row, &mut made);
+            if kernel.is_none_or(|kernel| !joins(kernel, &row)) {
+                into.close(&mut row, &mut made);
             }
             match op {
                 Op::Run(_) => row.extend(kernel),
@@ -41,11 +43,11 @@ impl Plan {
                 }
             }
         }
-        into.take(&mut row, &mut made);
+        into.close(&mut row, &mut made);
         made
     }
-    /// Takes a row of kernels as one, or one by one where they cannot be fused.
-    fn take(&mut self, row: &mut Vec<&Kernel>, made: &mut Vec<Op>) {
+    /// Adds a row of kernels as one, or one by one where they cannot be fused.
+    fn close(&mut self, row: &mut Vec<&Kernel>, made: &mut Vec<Op>) {
         let fused = if row.len() > 1 { fused(row) } else { None };
         let kernels = fused.map_or_else(|| row.iter().copied().cloned().collect(), |kernel| vec![kernel]);
         made.extend(kernels.into_iter().map(|kernel| Op::Run(self.place(kernel))));
@@ -62,7 +64,7 @@ fn alone(kernel: &Kernel) -> Option<&Pass> {
 }
 
 /// Whether a kernel can be fused with a row of others, to run after them: as many particles, and buffers within the limits of a shader.
-fn continues(row: &[&Kernel], kernel: &Kernel) -> bool {
+fn joins(kernel: &Kernel, row: &[&Kernel]) -> bool {
     let (Some(last), Some(next)) = (row.last().and_then(|last| alone(last)), alone(kernel)) else { return false };
     let alike =
         last.threads == next.threads && last.shader.reflection().workgroup == next.shader.reflection().workgroup;
@@ -70,33 +72,53 @@ fn continues(row: &[&Kernel], kernel: &Kernel) -> bool {
     for (place, kernel) in row.iter().copied().chain([kernel]).enumerate() {
         for (field, binding) in kernel.bindings() {
             match binding.access {
-                Access::Uniform => blocks.insert((field, block(kernel, &binding.name).then_some(place))),
+                Access::Uniform => blocks.insert((field, has_contents(kernel, &binding.name).then_some(place))),
                 Access::Read | Access::Write => storage.insert(field),
             };
         }
     }
-    let shared = |kernel: &&Kernel| alone(kernel).map_or(0, |pass| pass.shader.reflection().workgroup_bytes);
-    let bytes: u64 = row.iter().chain([&kernel]).map(shared).sum();
+    let all = || row.iter().copied().chain([kernel]);
+    let bytes: u64 = all().filter_map(alone).map(|pass| pass.shader.reflection().workgroup_bytes).sum();
+    // An error of a driver names the only law that is not of this crate.
+    let own: Vec<&Kernel> = all().filter(|kernel| is_own(kernel)).collect();
     alike
+        && own.len() <= 1
+        && own.iter().all(|kernel| expressions(kernel) <= LAW_EXPRESSIONS)
         && bytes <= WORKGROUP_BYTES
         && storage.len() <= STORAGE
         && blocks.len() <= UNIFORMS
         && row.iter().all(|before| !meets(before, kernel))
 }
 
-/// Whether two kernels use a field, of which one writes, that does not have one element for each particle: its elements have no owners. The
+/// Whether a kernel has a file that is not of this crate.
+fn is_own(kernel: &Kernel) -> bool {
+    kernel.passes.iter().any(|pass| !pass.shader.trusted())
+}
+
+/// The expressions of its shaders.
+fn expressions(kernel: &Kernel) -> usize {
+    let of = |module: &naga::Module| {
+        let entries = module.entry_points.iter().map(|entry| entry.function.expressions.len());
+        module.functions.iter().map(|(_, function)| function.expressions.len()).chain(entries).sum::<usize>()
+    };
+    kernel.passes.iter().map(|pass| of(pass.shader.module())).sum()
+}
+
+/// Whether two kernels use a field, of which one writes, that does not have one element for each particle, so that its elements belong to none. The
 /// words of the alarm are maxima and minima, in any order.
 fn meets(one: &Kernel, other: &Kernel) -> bool {
-    let writes = |binding: &Binding| binding.access == Access::Write;
     one.bindings().any(|(field, binding)| {
-        let shared = || other.bindings().any(|(name, its)| name == field && (writes(binding) || writes(its)));
-        let sized = one.size(field).is_some() || other.size(field).is_some() || !binding.array;
-        sized && field != ALARM.name && binding.access != Access::Uniform && shared()
+        let mut its = other.bindings().filter(|(name, _)| *name == field).map(|(_, its)| its);
+        its.any(|its| {
+            let written = [binding, its].iter().any(|binding| binding.access == Access::Write);
+            let sized = [one, other].iter().any(|kernel| kernel.size(field).is_some()) || !(binding.array && its.array);
+            written && sized && field != ALARM.name
+        })
     })
 }
 
 /// Whether a uniform block of a kernel has contents of its own.
-fn block(kernel: &Kernel, name: &str) -> bool {
+fn has_contents(kernel: &Kernel, name: &str) -> bool {
     kernel.passes.iter().flat_map(|pass| &pass.uniforms).any(|(known, _)| *known == name)
 }
 

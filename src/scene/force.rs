@@ -95,6 +95,24 @@ fn read_own(table: &Table<'_>, wgsl: &Entry, files: &Files, report: &mut Report)
     }
 }
 
+/// Remarks on forces that are given the skin of a list and keep none.
+pub(super) fn unused<'a>(sections: &'a [(&'static str, Table<'a>)]) -> Vec<String> {
+    let tables = sections.iter().filter(|(name, _)| *name == "force").map(|(_, table)| table);
+    let remark = |table: &Table<'a>| {
+        let kind = value::text(&table.get("kind")?.node, "kind", "", &mut Report::default()).and_then(forces::entry)?;
+        let settings = table.settings(kind.keys, &["kind"], &mut Report::default());
+        let has = |name: &str| kind.keys.iter().any(|key| key.name == name);
+        let skin = Some(table.get("skin")?).filter(|_| has("over") && settings.number("skin") > 0.0)?;
+        let over = Some(settings.text("over")).filter(|over| !["list", "auto"].contains(over))?;
+        let number = settings.number(&skin.key);
+        Some(format!(
+            "{} has skin = {number}, which over = \"{over}\" does not use: it is that of a \"list\"",
+            table.name
+        ))
+    };
+    tables.filter_map(remark).collect()
+}
+
 /// Reports settings of a force that are invalid together, or in such a box, at the key concerned, or else at its table. Returns whether
 /// they are valid.
 pub(super) fn agrees(table: &Table<'_>, force: &dyn Component, bounds: &Bounds, report: &mut Report) -> bool {

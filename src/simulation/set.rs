@@ -132,7 +132,7 @@ impl<B: Backend> Simulation<B> {
         // Steps that have been encoded or submitted keep their tables.
         tables.iter().for_each(|name| self.backend.forget(name));
         self.start = self.backend.compile(&plans.start)?;
-        self.step = self.backend.compile(&plans.step)?;
+        self.step = self.backend.compile_often(&plans.step)?;
         self.measure = (self.backend.compile(&plans.measure.0)?, self.backend.compile(&plans.measure.1)?);
         let elastic = self.problem.elastic.is_some();
         self.begun &= restart::print(&plans.start, elastic) == restart::print(&self.plans.start, elastic);

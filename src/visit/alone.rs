@@ -44,15 +44,13 @@ pub(crate) fn stays_alone(file: &Source, columns: &[String]) -> bool {
     places.all(|(at, word)| match *word {
         name if columns.iter().any(|column| column == name) => used(at),
         _ if file.ours => true,
-        "Particle" => before(at, &["me", ":"]),
+        // The parameter of a function, and no variable.
+        "Particle" => before(at, &["me", ":"]) && [",", ")"].iter().any(|mark| after(at + 1, &[mark])),
         "particle" | "particle_at" | "particle_of" => false,
-        "index" => before(at, &["me", "."]),
-        "me" => {
-            !(before(at, &["let"])
-                || before(at, &["var"])
-                || before(at, &["&"])
-                || before(at, &["="]) && after(at + 1, &[";"]))
-        }
+        // Read as it is: nothing is added to it, and nothing stored.
+        "index" => before(at, &["me", "."]) && ["]", ",", ")"].iter().any(|mark| after(at + 1, &[mark])),
+        "id_of" | "is_of" => after(at + 1, &["(", "me", ".", "index"]),
+        "me" => !["let", "var", "&", ">", "="].iter().any(|mark| before(at, &[mark])),
         _ => true,
     })
 }
@@ -87,6 +85,14 @@ mod tests {
             own.replace("let v = velocity[me.index].xyz;", "let i = me.index; let v = velocity[i ^ 1u].xyz;"),
             own.replace("let v = velocity[me.index].xyz;", "let all = &velocity; let v = all[0].xyz;"),
             own.replace("let v = velocity[me.index].xyz;", "let i = 0u; let v = velocity[i].xyz;"),
+            own.replace("let v = velocity[me.index].xyz;", "let v = vec3f(f32(id_of(me.index + 1u)));"),
+            own.replace("let v = velocity[me.index].xyz;", "let v = vec3f(f32(is_of(3u, 1u)));"),
+            "var<private> me: Particle; fn other() -> vec3f { me.index = 3u; return velocity[me.index].xyz; } \
+             fn force(me: Particle) -> vec4f { return vec4f(other(), 0.0); }"
+                .to_owned(),
+            "var<private> me: Particle; fn other() -> vec3f { return velocity[me.index].xyz; } \
+             fn force(at: Particle) -> vec4f { me = at; me.index += 1u; return vec4f(other(), 0.0); }"
+                .to_owned(),
         ] {
             assert!(!law(&other), "{other}");
         }

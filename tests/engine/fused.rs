@@ -111,3 +111,24 @@ fn a_law_that_looks_at_another_particle_stays_apart() {
     assert_eq!(differences(&apart), Vec::<String>::new());
     assert_eq!(differences(&alone), Vec::<String>::new());
 }
+
+/// A driver's fault is that of one law, which a message names, and large laws are compiled once.
+#[test]
+fn at_most_one_law_of_a_user_is_fused_and_no_large_one() {
+    let text = format!("{SCENE}[[force]]\nwgsl = \"two.wgsl\"\nover = \"each\"\n");
+    let plan = |first: String| {
+        let law = "fn force(me: Particle) -> vec4f { return vec4f(-me.position, 0.0); }";
+        let files = vec![("own.wgsl".to_owned(), first.into_bytes()), ("two.wgsl".to_owned(), law.as_bytes().to_vec())];
+        let source = Source::Memory { name: "own".to_owned(), text: text.clone(), files };
+        let scene = Scene::load(&source, &[], &Options::default()).unwrap_or_else(|faults| panic!("{faults}"));
+        setup(scene).plans(motes::kernel::Machine::HOST).expect("plans").step.fused().to_string()
+    };
+    let small = "fn force(me: Particle) -> vec4f { return vec4f(me.position, 0.0); }".to_owned();
+    assert!(plan(small).starts_with("kick+drift KICK=0.5 + own | two + kick "));
+    let numbers: Vec<String> = (0..600).map(|k| format!("{k}.5")).collect();
+    let large = format!(
+        "fn force(me: Particle) -> vec4f {{ var all = array<f32, 600>({}); return vec4f(all[u32(me.mass)]); }}",
+        numbers.join(", ")
+    );
+    assert!(plan(large).starts_with("kick+drift KICK=0.5 | own | two + kick "));
+}

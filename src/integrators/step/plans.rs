@@ -43,12 +43,18 @@ impl<'a> Step<'a> {
     pub fn done(mut self) -> Result<Plan, Error> {
         self.each(Stage::EndOfStep);
         self.pressure();
-        // Beside the last kick, with which it can be one dispatch.
-        self.watch(1);
+        // Beside the last kick, with which it can be one dispatch; but after what is born and removed, and a step that may have no length.
+        let last = self.problem.has_inactive || self.problem.adaptive_step.is_some();
+        if !last {
+            self.watch(1);
+        }
         self.add(if self.problem.adaptive_step.is_some() { adaptive::tick(&self.problem) } else { tick::kernel() });
         self.populate();
         // Particles just spawned take part in the criterion for their first step.
         self.dt_criteria();
+        if last {
+            self.watch(0);
+        }
         self.finished()
     }
     /// Adds the measurement of the pressure, and what follows from it, where a component needs it.

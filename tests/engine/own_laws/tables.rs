@@ -86,3 +86,24 @@ fn data_is_of_one_force() {
     let refused = pull(vec![force("one.wgsl", 2.0), force("two.wgsl", 64.0)]).expect_err("one name").to_string();
     assert!(refused.contains("`one` and `two` fill the field `data` with different contents"), "{refused}");
 }
+
+/// The virial of two forces of one file with data of their own is the sum of theirs.
+#[test]
+fn the_virial_has_the_data_of_its_force() {
+    const PAIR: &str = "
+@group(3) @binding(1) var<storage, read> data: array<f32>;
+fn gather(me: Particle, you: Particle, r: vec3f, sum: ptr<function, Sum>) { (*sum).acceleration += data[0] * r; }
+fn finish(me: Particle, sum: Sum) -> vec4f { return vec4f(sum.acceleration, sum.potential); }";
+    let virial = |values: &[f32]| {
+        let force = |value: &f32| -> Box<dyn Component> {
+            let tables = vec![("data".into(), Arc::new(vec![value.to_bits()]))];
+            Box::new(Custom { tables, ..Custom::new("pull", "pull.wgsl", PAIR, Over::Near { range: 2.0, of: None }) })
+        };
+        let (shared, setup) = (device(), Setup { forces: values.iter().map(force).collect(), ..scene(&[]) });
+        let mut simulation = Simulation::new(&shared.found.device, &shared.found.queue, &setup).expect("a simulation");
+        simulation.step(1).expect("a step");
+        pollster::block_on(simulation.virial()).expect("a virial")[0]
+    };
+    let (one, two) = (virial(&[65.0]), virial(&[1.0, 64.0]));
+    assert!(one.abs() > 1.0 && (two / one - 1.0).abs() < 1e-5, "{one} {two}");
+}

@@ -1,5 +1,7 @@
 //! Keys and sections: unknown, missing, in the wrong place. Each text is what a user reads, whole.
 
+use motes::scene::{Options, Scene, Source};
+
 use crate::scenes::assert_report;
 
 #[test]
@@ -283,4 +285,21 @@ sound_speed = 10
 
 a.toml: 1 error",
     );
+}
+
+/// A skin that no list has is remarked on, with its number and what would use it.
+#[test]
+fn a_skin_without_a_list_is_remarked_on() {
+    let remarks = |over: &str, skin: &str| {
+        let set = [format!("force.0.over={over}"), format!("force.0.skin={skin}")];
+        let source = Source::find("argon").expect("a built-in scene");
+        let scene = Scene::load(&source, &set, &Options::default()).unwrap_or_else(|faults| panic!("{faults}"));
+        scene.remarks
+    };
+    let near = remarks("near", "0.25");
+    assert!(near.len() == 1 && near[0].contains("skin = 0.25") && near[0].contains("\"near\""), "{near:?}");
+    assert_eq!(remarks("within", "0.25").len(), 1);
+    for (over, skin) in [("list", "0.25"), ("auto", "0.25"), ("near", "0")] {
+        assert_eq!(remarks(over, skin), Vec::<String>::new(), "{over} {skin}");
+    }
 }
