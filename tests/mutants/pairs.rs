@@ -143,7 +143,7 @@ fn watches(shared: &Rc<RefCell<Simulation<Gpu>>>, kernel: &Kernel, columns: &Col
     let column = columns.get(name).expect("a column");
     let buffer = columns.get(&column.place.buffer).expect("a buffer");
     // One step is done, and the kernel may count another.
-    let ahead = kernel.passes[0].constants.iter().any(|constant| *constant == ("AHEAD", 1.0));
+    let ahead = kernel.passes[0].constants.contains(&("AHEAD", 1.0));
     let done = 1 + u32::from(ahead);
     let cases = [
         ([u32::MAX; 2], 3, f64::NAN),
