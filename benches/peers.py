@@ -16,13 +16,14 @@ import subprocess
 import sys
 import tempfile
 import time
-import venv
 from pathlib import Path
 
 try:
     import numpy as np
 except ImportError:
     np = None  # the environment that this script makes has it
+
+import elsewhere
 
 SOFTENING = 0.02
 # The spline of this support has the same depth at its centre as Plummer's of SOFTENING: pytreegrav has no other.
@@ -61,15 +62,6 @@ def arguments():
     parser.add_argument("--json", metavar="FILE", help="write the result here, too")
     parser.add_argument("--here", action="store_true", help="use the packages that this Python has installed")
     return parser.parse_args()
-
-
-def installed_elsewhere():
-    """Runs this script again in a new virtual environment that has the peers."""
-    with tempfile.TemporaryDirectory() as folder:
-        venv.create(folder, with_pip=True)
-        python = Path(folder) / "bin" / "python"
-        subprocess.run([python, "-m", "pip", "install", "--quiet", "rebound", "pytreegrav"], check=True)
-        return subprocess.run([python, *sys.argv, "--here"]).returncode
 
 
 def plummer(count):
@@ -284,7 +276,7 @@ def table(rows):
 def main():
     args = arguments()
     if not args.here:
-        return installed_elsewhere()
+        return elsewhere.rerun(["rebound", "pytreegrav"])
     rows = []
     for count in args.bodies:
         with tempfile.TemporaryDirectory() as folder:

@@ -39,7 +39,7 @@ pub async fn explain(args: &ExplainArgs) -> Result<(), Failure> {
     let count = setup.check()?;
     let engine = Engine::choose(&args.device).await?;
     let plans = setup.plans(engine.machine(count)?)?;
-    let (start, step) = (&plans.start, engine.runs(&plans.step));
+    let step = engine.runs(&plans.step);
     // Some kernels run more than once.
     let mut described: Vec<&Kernel> = Vec::new();
     for kernel in plans.step.steps() {
@@ -52,7 +52,7 @@ pub async fn explain(args: &ExplainArgs) -> Result<(), Failure> {
         out!(
             "{:#}",
             json!({ "scene": scene.name, "particles": count, "integrator": scene.integrator.name, "device": engine.describe(),
-                "once": start.to_string(), "step": step.to_string(), "dispatches": step.dispatches(),
+                "once": plans.start.to_string(), "step": step.to_string(), "dispatches": step.dispatches(),
                 "kernels": kernels })
         );
         return Ok(());
@@ -64,7 +64,7 @@ pub async fn explain(args: &ExplainArgs) -> Result<(), Failure> {
     }
     out!("");
     if !plans.start.is_empty() {
-        out!("once:  {start}");
+        out!("once:  {}", plans.start);
     }
     out!("step:  {step}");
     let fused = step.dispatches() < plans.step.dispatches();

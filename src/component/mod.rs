@@ -22,13 +22,14 @@ use crate::crowds::Press;
 use crate::error::Error;
 use crate::floor_plan::FloorPlan;
 use crate::grains::{ContactForce, Material};
-use crate::kernel::{Bounds, Column, Kernel, Plan, Problem, Table, Way};
+use crate::kernel::{Bounds, Column, Plan, Problem, Way};
 use crate::neighbors::Grid;
 use crate::settings::{Key, Settings, Value};
 use crate::solids::Standing;
 use crate::sph::{Continuum, Rates};
 use crate::state::State;
 use crate::visit::Law;
+pub use crate::visit::numbered;
 
 /// A component: an interaction, a constraint or an updater. A simulation keeps a copy, from which it rewrites its plan when it
 /// allocates more rows.
@@ -338,22 +339,10 @@ pub fn carry(laws: Vec<Law>, earlier: usize, plan: &mut Plan, problem: &Problem)
 
 fn add(laws: impl Iterator<Item = Law>, earlier: usize, plan: &mut Plan, problem: &Problem) -> Result<(), Error> {
     for law in laws {
-        let name = numbered(&law.name, earlier);
-        let tables = law.tables.clone();
-        plan.push(&name, || {
-            let mut kernel = Law { name: name.clone(), ..law }.kernel(problem)?;
-            number_tables(&mut kernel, &tables, earlier);
-            Ok(kernel)
-        })?;
+        let law = law.after(earlier);
+        plan.push(&law.name.clone(), || law.kernel(problem))?;
     }
     Ok(())
-}
-
-/// Gives a kernel the tables of its own force: another one of the same file before it has tables of the same names.
-fn number_tables(kernel: &mut Kernel, tables: &[Table], earlier: usize) {
-    for (table, _) in tables.iter().filter(|_| earlier > 0) {
-        kernel.rename(table, &numbered(table, earlier).into());
-    }
 }
 
 /// Whether a law writes the rate of a column that is advanced with positions.
@@ -375,12 +364,6 @@ pub fn earlier(all: &[Box<dyn Component>], place: usize) -> usize {
 pub fn declared(all: &[Box<dyn Component>]) -> impl Iterator<Item = Column> {
     let own = |place: usize| all[place].own_columns(earlier(all, place));
     all.iter().enumerate().flat_map(move |(place, one)| one.columns().into_iter().chain(own(place)))
-}
-
-/// The name of a kernel with `earlier` of its kind before it.
-#[must_use]
-pub fn numbered(name: &str, earlier: usize) -> String {
-    if earlier == 0 { name.to_owned() } else { format!("{name} {}", earlier + 1) }
 }
 
 /// The role of a component.

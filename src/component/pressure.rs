@@ -5,11 +5,11 @@ use std::sync::Arc;
 use glam::{DVec4, Vec4};
 
 use super::barostat::{TOTAL, due};
-use super::{Component, Stage, earlier, number_tables, numbered};
+use super::{Component, Stage, earlier};
 use crate::error::Error;
 use crate::kernel::{Field, Host, Indirect, Kernel, Name, POSITION, Pass, Plan, Problem, Reference, Shader, VELOCITY};
 use crate::primitives::{Items, Operation, reduce};
-use crate::visit::{Law, VIRIAL, clear_virial, no_virial};
+use crate::visit::{VIRIAL, clear_virial, no_virial};
 
 /// m v², the virial, and whether forces add up, of each particle.
 const PARTS: Field<Vec4> = Field::new("pressure_parts");
@@ -40,10 +40,7 @@ pub(crate) fn virial(forces: &[Box<dyn Component>], problem: &Problem) -> Result
         }
         let before = earlier(forces, place);
         for law in laws {
-            let law = Law { name: numbered(&law.name, before), ..law };
-            let mut kernel = law.virial(problem)?;
-            kernel.iter_mut().for_each(|kernel| number_tables(kernel, &law.tables, before));
-            kernels.extend(kernel);
+            kernels.extend(law.after(before).virial(problem)?);
         }
     }
     Ok(kernels)

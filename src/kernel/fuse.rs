@@ -104,8 +104,8 @@ fn expressions(kernel: &Kernel) -> usize {
     kernel.passes.iter().map(|pass| of(pass.shader.module())).sum()
 }
 
-/// Whether two kernels use a field, of which one writes, that does not have one element for each particle, so that its elements belong to none. The
-/// words of the alarm are maxima and minima, in any order.
+/// Whether two kernels use a field that one of them writes, and that does not have one element for each particle: an element belongs to none.
+/// The words of the alarm are maxima and minima, in any order.
 fn meets(one: &Kernel, other: &Kernel) -> bool {
     one.bindings().any(|(field, binding)| {
         let mut its = other.bindings().filter(|(name, _)| *name == field).map(|(_, its)| its);

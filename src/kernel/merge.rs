@@ -41,7 +41,7 @@ impl Merged {
     pub fn take_uniforms(&mut self) -> Vec<(&'static str, Vec<u8>)> {
         std::mem::take(&mut self.uniforms)
     }
-    /// The module, whose entry point calls those of all passes in order.
+    /// The module; its entry point calls those of all passes in order.
     pub fn module(self, workgroup: u32) -> Module {
         let Self { mut module, calls, .. } = self;
         let mut function = Function::default();

@@ -65,19 +65,6 @@ impl Kernel {
         self.passes.iter_mut().for_each(|pass| pass.alone = true);
         self
     }
-    /// Binds a field of another name in place of one.
-    pub fn rename(&mut self, from: &Name, to: &Name) {
-        let names = self.sizes.iter_mut().map(|(name, _)| name).chain(self.tables.iter_mut().map(|(name, _)| name));
-        names.chain(&mut self.scratch).filter(|name| *name == from).for_each(|name| name.clone_from(to));
-        let binds = |pass: &&mut Pass| pass.bindings().any(|(field, _)| field == from);
-        for pass in self.passes.iter_mut().filter(binds) {
-            let bound = pass.fields.iter_mut().find(|(_, field)| field == from);
-            match bound {
-                Some((_, field)) => field.clone_from(to),
-                None => pass.fields.push((from.clone(), to.clone())),
-            }
-        }
-    }
     /// The fields that it writes, by name, without its scratch.
     #[must_use]
     pub fn writes(&self) -> Vec<String> {

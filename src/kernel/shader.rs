@@ -164,8 +164,11 @@ impl Shader {
         let reflection = Reflection::of(&module, &info);
         let (mut sources, mut written): (Vec<Source>, Vec<String>) = (Vec::new(), Vec::new());
         for shader in passes.iter().map(|pass| &pass.shader) {
-            sources
-                .extend(shader.sources.iter().filter(|source| !sources.contains(source)).cloned().collect::<Vec<_>>());
+            for source in &shader.sources {
+                if !sources.contains(source) {
+                    sources.push(source.clone());
+                }
+            }
             written.extend(shader.written.iter().cloned());
         }
         Some(Self { sources, text, module, reflection, written })

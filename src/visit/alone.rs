@@ -9,24 +9,23 @@ const OWN: [&[&str]; 5] = [&["i"], &["id"], &["index"], &["me", ".", "index"], &
 impl Law {
     /// Marks the kernel of a law of each particle alone, unless its files might look at another one.
     pub(super) fn mark_alone(&self, kernel: &mut Kernel) {
-        let columns: Vec<String> = kernel
-            .bindings()
-            .filter(|(field, binding)| {
-                binding.access != Access::Uniform && binding.array && kernel.size(field).is_none()
-            })
-            .map(|(_, binding)| binding.name.clone())
-            .collect();
-        let alone = self.over == Over::Each && !self.has_loops() && {
-            let mut files = kernel.passes.iter().flat_map(|pass| pass.shader.sources());
-            files.all(|file| stays_alone(file, &columns))
-        };
+        let alone = self.over == Over::Each && !self.has_loops() && looks_at_own(kernel);
         kernel.passes.iter_mut().for_each(|pass| pass.alone = alone);
     }
 }
 
+/// Whether the files of a kernel use the columns of particles at the index of their own particle alone.
+pub(crate) fn looks_at_own(kernel: &Kernel) -> bool {
+    let bound = kernel.bindings().filter(|(_, binding)| binding.access != Access::Uniform && binding.array);
+    let columns = bound.filter(|(field, _)| kernel.size(field).is_none());
+    let columns: Vec<String> = columns.map(|(_, binding)| binding.name.clone()).collect();
+    let mut files = kernel.passes.iter().flat_map(|pass| pass.shader.sources());
+    files.all(|file| stays_alone(file, &columns))
+}
+
 /// Whether a file uses these columns at the index of its own particle alone. A user's file is taken at its words: what might make a
 /// particle of another index is refused, whether it does or not.
-pub(crate) fn stays_alone(file: &Source, columns: &[String]) -> bool {
+fn stays_alone(file: &Source, columns: &[String]) -> bool {
     let words = file.words();
     let after = |at: usize, text: &[&str]| words.get(at..at + text.len()).is_some_and(|some| some == text);
     let before = |at: usize, text: &[&str]| at >= text.len() && after(at - text.len(), text);

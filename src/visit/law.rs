@@ -6,8 +6,8 @@ use glam::{DVec3, DVec4};
 
 use super::reference::{ByTables, Sample};
 use super::{
-    Group, Jacobian, Memory, Outcome, Over, PAIR_TABLE, PairTable, Particle, Search, Tables, each, links, list, near,
-    pairs, reference, tree, two_words, virial, walk,
+    Group, Jacobian, Memory, Outcome, Over, PairTable, Particle, Search, Tables, each, links, list, near, pairs,
+    reference, tree, two_words, virial, walk,
 };
 use crate::error::Error;
 use crate::kernel::{
@@ -53,6 +53,14 @@ pub struct Law {
     pub beside: Vec<Source>,
     /// The reference of the virial of its pairs; `None` where there is none.
     pub virial: Option<Reference>,
+    /// The number of laws of its name before it, which have tables of the same names: see [`Law::after`].
+    pub earlier: usize,
+}
+
+/// The name of what has `earlier` of its kind before it.
+#[must_use]
+pub fn numbered(name: &str, earlier: usize) -> String {
+    if earlier == 0 { name.to_owned() } else { format!("{name} {}", earlier + 1) }
 }
 
 /// A law's approximation of a far group.
@@ -93,7 +101,13 @@ impl Law {
             search: None,
             beside: Vec::new(),
             virial: None,
+            earlier: 0,
         }
+    }
+    /// The same law with so many of its name before it: its kernel and its tables have names of their own.
+    #[must_use]
+    pub fn after(self, earlier: usize) -> Self {
+        Self { name: numbered(&self.name, earlier), earlier, ..self }
     }
     /// Whether it keeps history of pairs.
     #[must_use]
@@ -363,59 +377,6 @@ impl Law {
         ])?;
         self.agrees("fn acts_on(me: Particle) -> bool")?;
         self.agrees(super::files::MERGE)
-    }
-    /// The tables that its WGSL binds, of pairs of species and of data.
-    pub(super) fn bind_tables(&self, kernel: &mut Kernel, problem: &Problem) -> Result<(), Error> {
-        let passes = kernel.passes.clone();
-        let binding = |name: &str| {
-            let mut all = passes.iter().flat_map(|pass| &pass.shader.reflection().bindings);
-            all.find(|binding| binding.name == name)
-        };
-        let mut tables = Vec::new();
-        if let Some(pairs) = &self.pairs {
-            let present: Vec<u32> = if problem.species.is_empty() {
-                vec![0]
-            } else {
-                problem.species.iter().map(|(species, _)| *species).collect()
-            };
-            let Some(binding) = binding(PAIR_TABLE) else {
-                return Err(Error::Scene(format!(
-                    "`{}` is given parameters of pairs of species, but {} reads no `var<storage, read> {PAIR_TABLE}: array<Pair>`",
-                    self.name, self.wgsl.file
-                )));
-            };
-            let words = pairs.words(&self.name, binding, &present)?;
-            let (uniform, stride) = (binding.access == Access::Uniform, binding.stride);
-            let side = if pairs.is_alike() { 1.0 } else { f64::from(pairs.side(&present)) };
-            if uniform {
-                let bytes: Vec<u8> = words.1.iter().flat_map(|word| word.to_le_bytes()).collect();
-                let binds = |pass: &&mut crate::kernel::Pass| pass.shader.reflection().binding(PAIR_TABLE).is_some();
-                kernel.passes.iter_mut().filter(binds).for_each(|pass| pass.uniforms.push((PAIR_TABLE, bytes.clone())));
-            } else {
-                tables.push((words, stride));
-            }
-            let tells = |pass: &&mut crate::kernel::Pass| pass.shader.reflection().overrides.contains_key("SPECIES");
-            kernel.passes.iter_mut().filter(tells).for_each(|pass| pass.constants.push(("SPECIES", side)));
-        }
-        for table in &self.tables {
-            let Some(binding) = binding(&table.0) else {
-                return Err(Error::Scene(format!(
-                    "`{}` is given the table `{}`, but {} reads no storage buffer of that name",
-                    self.name, table.0, self.wgsl.file
-                )));
-            };
-            tables.push((table.clone(), binding.stride));
-        }
-        for (table, stride) in tables {
-            let (inside, words) = table;
-            // Each law has one of this name.
-            let field = if inside == PAIR_TABLE { format!("{inside} of {}", self.name).into() } else { inside.clone() };
-            kernel.sizes.push((field.clone(), 4 * words.len() as u64 / stride.max(1)));
-            let binds = |pass: &&mut crate::kernel::Pass| pass.shader.reflection().binding(&inside).is_some();
-            kernel.passes.iter_mut().filter(binds).for_each(|pass| pass.fields.push((inside.clone(), field.clone())));
-            kernel.tables.push((field, words));
-        }
-        Ok(())
     }
     /// Checks whether it writes the columns that it names, and whether every bound column is of the declared kind.
     fn check_columns(&self, kernel: &mut Kernel, problem: &Problem) -> Result<(), Error> {

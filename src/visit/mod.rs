@@ -16,6 +16,7 @@ pub mod random;
 mod reference;
 mod result;
 mod search;
+mod tables;
 mod tied;
 mod tree;
 mod turns;
@@ -24,9 +25,9 @@ mod virial;
 mod walk;
 
 #[cfg(test)]
-pub(crate) use alone::stays_alone;
+pub(crate) use alone::looks_at_own;
 pub use jacobian::{Jacobian, ROW, ROWS};
-pub use law::{Distant, Law};
+pub use law::{Distant, Law, numbered};
 pub use links::{LINK, LINK_START, bind};
 pub use list::{ALL as LIST_ALL, Memory, ROOM as LIST_ROOM, UNCOUNTED, build as list_kernel, shared as shared_list};
 pub use near::Candidate;
