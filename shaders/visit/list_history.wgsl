@@ -9,13 +9,3 @@ fn recall(you: Particle, word: u32) -> f32 {
     if you.pair == NONE { return 0.0; }
     return history[word_of(you.pair, world.step, word)];
 }
-
-// What this step leaves. A particle is no pair with itself, and there are no more words than slots.
-fn remember(you: Particle, word: u32, value: f32) {
-    if word >= SLOTS { beyond(word); } else if you.pair != NONE { history[word_of(you.pair, world.step + 1u, word)] = value; }
-}
-
-// This step stores nothing, until the law does.
-fn forget(pair: u32) {
-    for (var word = 0u; word < SLOTS; word += 1u) { history[word_of(pair, world.step + 1u, word)] = 0.0; }
-}

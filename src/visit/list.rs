@@ -15,6 +15,8 @@ use crate::neighbors::{HISTORY, LIST, List};
 const ROWS: u32 = 1 << 20;
 /// The default skin, as a part of the range.
 const SKIN: f64 = 0.2;
+/// Words of history of a pair that are held in registers, at most: the length of an array in `shaders/visit/history_held.wgsl`.
+const HELD: u32 = 8;
 /// The number of neighbours for which there is room where they have not been counted.
 pub const UNCOUNTED: u32 = 128;
 
@@ -87,7 +89,15 @@ pub fn kernel(law: Law, range: f64, slots: u32, problem: &Problem) -> Result<Ker
     let mut sizes = law.alarm();
     match slots {
         0 => sources.push(crate::shader!("visit/list_plain.wgsl")),
-        _ => sources.extend([crate::shader!("neighbors/history.wgsl"), crate::shader!("visit/list_history.wgsl")]),
+        _ => sources.extend([
+            crate::shader!("neighbors/history.wgsl"),
+            crate::shader!("visit/list_history.wgsl"),
+            if slots <= HELD {
+                crate::shader!("visit/history_held.wgsl")
+            } else {
+                crate::shader!("visit/history_stored.wgsl")
+            },
+        ]),
     }
     sources.extend(law.files(problem));
     let known = [sources.clone(), vec![crate::shader!("own/no_words.wgsl")]].concat();

@@ -37,7 +37,6 @@ pub const EQUIVALENT: &[Equivalent] = &[
     same("list_moved", "override LIMIT: f32 = 0.0;", "0.0", "1.0", ALWAYS_SET),
     same("list_decide", "override WORDS: u32 = 0u;", "0u", "1u", ALWAYS_SET),
     same("neighbors/history", "override SLOTS: u32 = 1u;", "1u", "2u", ALWAYS_SET),
-    same("list_history", "history[word_of(", "+", "-", "the half is that of even or of odd steps"),
     same("visit/list", "override RANGE: f32 = 1.0;", "1.0", "1.5", ALWAYS_SET),
     same("visit/list.wgsl", "let near = r.x", "<", "<=", EDGE),
     same("visit/list.wgsl", "for (var n = 0u; n < head.x; n += 4u)", "<", "<=", MORE),
@@ -49,6 +48,13 @@ pub const EQUIVALENT: &[Equivalent] = &[
         "without history nothing is forgotten",
     ),
     same("visit/list_plain", "const REMEMBERS: bool = false;", "false", "true", "without history nothing is forgotten"),
+    same("history_held", "array<f32, 8>", "8", "9", MORE),
+    same("history_held", "{ words_left[word] = 0.0; }", "<", "<=", MORE),
+    same("history_held", "history[word_of(", "+", "-", "the half is that of even or of odd steps"),
+    same("history_stored", "history[word_of(you.pair", "+", "-", "the half is that of even or of odd steps"),
+    same("history_stored", "history[word_of(pair", "+", "-", "the half is that of even or of odd steps"),
+    same("list_order", "if 4u * first < end", "*", "/", MORE),
+    same("list_order", "if 4u * first < end", "<", "<=", MORE),
     same("visit/list_plain", "fn pair_at", "0u", "1u", NOT_ASKED),
     same("list_order", "if found.x > atomicLoad", ">", ">=", MORE),
     same("list_order", "if group.z == 0u", "==", "!=", ALL_KNOW),
@@ -255,6 +261,9 @@ pub fn all(shared: &Shared, stages: &mut Vec<Stage>) {
     let all = [Since::Never, Since::Little, Since::Much, Since::Spawned, Since::First];
     stages.extend(all.map(|since| steps(2).stage(since)));
     stages.extend([Since::Much, Since::Removed].map(|since| steps(3).stage(since)));
+    // As many words as registers hold, and more.
+    stages.push(steps(8).stage(Since::Little));
+    stages.extend([Since::Little, Since::Much].map(|since| steps(9).stage(since)));
     stages.push(Place { slots: 2, ..place(LANES, periodic, false, ROOM) }.stage(Since::Much));
     // In a box that shrinks and grows, little and so much that no pair is sure to be listed.
     let stretched = |part, room| Place { stretch: Some(part), ..place(LANES, periodic, false, room) };

@@ -20,6 +20,8 @@ const ROW_BEFORE: &str = "row_before";
 const HISTORY_BEFORE: &str = "history_before";
 /// Words of the arguments of a dispatch.
 const EACH: u32 = 3;
+/// Neighbours that an invocation puts in their places.
+const SORTED: u32 = 16;
 /// The approximate number of checks for each rebuild.
 const SELDOM: u64 = 8;
 
@@ -152,7 +154,7 @@ fn order(list: &List, problem: &Problem) -> Result<Pass, Error> {
     let mut constants = problem.constants(&shader);
     constants.extend(list.grid.constants(&shader));
     constants.push((ROOM, f64::from(list.shape.capacity)));
-    let threads = Threads { count: problem.capacity, layers: list.shape.capacity / 4 };
+    let threads = Threads { count: problem.capacity, layers: list.shape.capacity.div_ceil(SORTED) };
     let work = u64::from(problem.capacity) * u64::from(list.shape.capacity);
     let pass = Pass { constants, threads, work, ..Pass::new(shader, problem.capacity) };
     Ok(pass.on(&[list.grid.field(STARTS)]))
