@@ -112,6 +112,7 @@ impl Setup {
         pair_history::once(&self.forces, &plans.step)?;
         tables::agree(plans.all())?;
         unwritten::check(&plans, &columns)?;
+        unwritten::in_order(&plans.measure.0, &columns)?;
         Ok(plans)
     }
     /// The same setup with free rows, where its state has a capacity and no free rows yet.

@@ -1,10 +1,10 @@
-//! Columns that a user's file reads and nothing writes.
+//! Columns that a user's file reads and nothing writes, or that a later law computes.
 
 use std::collections::BTreeSet;
 
 use super::Plans;
 use crate::error::Error;
-use crate::kernel::{ALARM, Access, Columns, Role};
+use crate::kernel::{ACCELERATION, ALARM, Access, Columns, Plan, Role};
 
 /// Refuses a user's shader that reads a field that neither the state holds nor any kernel of the plans writes: a misspelt name, or a column
 /// that no law computes.
@@ -35,6 +35,32 @@ pub(super) fn check(plans: &Plans, columns: &Columns) -> Result<(), Error> {
                     ),
                 };
                 return Err(Error::Shader { message });
+            }
+        }
+    }
+    Ok(())
+}
+
+/// Refuses a user's shader that reads a column before all of it is computed: in an evaluation laws follow one another as in the scene, so that
+/// it would have values of the evaluation before. `plan` has one evaluation.
+pub(super) fn in_order(plan: &Plan, columns: &Columns) -> Result<(), Error> {
+    let computed = |name: &str| {
+        let column = columns.get(name).filter(|column| column.place.buffer != ACCELERATION.name);
+        column.is_some_and(|column| column.role != Role::State)
+    };
+    for (place, kernel) in plan.kernels.iter().enumerate() {
+        for pass in kernel.passes.iter().filter(|pass| !pass.shader.trusted()) {
+            for (name, _) in pass.bindings().filter(|(name, one)| one.access == Access::Read && computed(name)) {
+                let mut later = plan.kernels.iter().skip(place + 1);
+                let Some(later) = later.find(|kernel| kernel.writes().iter().any(|written| written == name)) else {
+                    continue;
+                };
+                let file = pass.shader.sources().iter().find(|source| !source.ours).map_or("", |source| &source.file);
+                return Err(Error::Scene(format!(
+                    "{file} reads the column `{name}`, which `{}` computes after it in an evaluation, so that its values would be those of the \
+                     evaluation before: put the force that computes `{name}` before the one that reads it",
+                    later.name
+                )));
             }
         }
     }

@@ -20,6 +20,7 @@ mod film;
 mod json;
 mod messages;
 mod own_contact;
+mod own_metal;
 mod plans;
 mod process;
 mod purity;
