@@ -13,6 +13,7 @@ mod boxes;
 mod lammps;
 mod laws;
 mod liquid;
+mod metal;
 mod minimum;
 mod nist;
 mod pressure;
