@@ -49,7 +49,7 @@ fn short(steps: u32) -> String {
     scene.replace("every = 300", &format!("every = {}", steps / 4)).replace("\"xyz\", \"png\"", "\"xyz\"")
 }
 
-/// The example is at 600 K under each thermostat; its energy is that of copper, g(r) has its first maximum at the distance of neighbours, a / √2 =
+/// The example is at 600 K under each thermostat, over both visits; its energy is that of copper, g(r) has its first maximum at the distance of neighbours, a / √2 =
 /// 2.55 Å, and a trajectory has the densities. A barostat takes the pressure off it, which begins at 5 GPa.
 #[test]
 fn a_metal_has_thermostats_measures_and_a_trajectory() {
@@ -61,7 +61,8 @@ fn a_metal_has_thermostats_measures_and_a_trajectory() {
     let scene = short(480) + MEASURES;
     assert!(scene.contains(csvr));
     let mut all = Vec::new();
-    for scene in [scene.clone(), scene.replace(csvr, langevin), format!("{scene}{barostat}")] {
+    let near = scene.replace("over = \"list\"", "over = \"near\"");
+    for scene in [scene.clone(), scene.replace(csvr, langevin), format!("{scene}{barostat}"), near] {
         let out = run(folder.path(), &scene);
         let temperature = column(&out, "thermo", "temperature");
         // √(2 / 1500) = 3.7 % of a sample; thrice that and what has not relaxed.
@@ -82,7 +83,9 @@ fn a_metal_has_thermostats_measures_and_a_trajectory() {
     println!("{all:?}");
     let last = |n: usize| all[n].last().copied().unwrap_or(f64::NAN);
     // In eV / Å³: 3.6 GPa, and 1.5 GPa of a box that follows.
-    assert!(last(0) > 0.02 && last(1) > 0.02 && last(2).abs() < 0.012, "{all:?}");
+    assert!(last(0) > 0.02 && last(1) > 0.02 && last(3) > 0.02 && last(2).abs() < 0.012, "{all:?}");
+    // The same pairs: the first row is of the same places.
+    assert!((all[0][0] - all[3][0]).abs() < 1e-6, "{all:?}");
 }
 
 /// The force before the density would read those of the evaluation before.
