@@ -20,6 +20,7 @@ mod restart;
 mod rows;
 mod set;
 mod setup;
+mod skin;
 mod solves;
 mod spawn;
 mod tables;
@@ -32,6 +33,8 @@ pub use inactive::serves;
 pub use pressures::PressureSolves;
 pub use readback::Readback;
 pub use setup::{Plans, Setup};
+#[doc(hidden)]
+pub use skin::ListReport;
 pub use solves::{Outcome, Solves};
 
 use crate::cpu::threads;
@@ -91,6 +94,7 @@ pub struct Simulation<B: Backend> {
     /// The neighbour list that laws share, if any.
     list: Option<ListShape>,
     repeat: lists::Repeat,
+    skin: skin::Watched,
     steps: u64,
     /// Restart data that a step saves for the next one beside columns, and a hash of this step.
     carried: Vec<Carried>,
@@ -141,7 +145,7 @@ impl<B: Backend> Simulation<B> {
         let measure = (backend.compile(&plans.measure.0)?, backend.compile(&plans.measure.1)?);
         let state = &setup.state;
         let store = Store::new(setup, &plans, count)?;
-        let print = restart::print(&plans.step, problem.elastic.is_some());
+        let print = restart::print(&plans.step, restart::any_list(&problem));
         let whole = how == Start::Grown || restart::is_whole(print, &given.state);
         store.write(&mut backend, setup, whole)?;
         let anchored = plans.all().any(|plan| plan.fields(count).contains_key(HOME.name));
@@ -174,6 +178,7 @@ impl<B: Backend> Simulation<B> {
             adaptive_step,
             list,
             repeat,
+            skin: skin::Watched::from(steps),
             steps,
             carried,
             print,

@@ -25,7 +25,7 @@ pub(crate) use kept::NEXT as KEPT_NEXT;
 pub(crate) use kept::{
     BROKEN as KEPT_BROKEN, EXTENT as KEPT_EXTENT, HOME as KEPT_HOME, KEPT, NEIGHBORS as KEPT_NEIGHBORS,
     PAIR_WORDS as KEPT_PAIR_WORDS, PAIRS as KEPT_PAIRS, PART as KEPT_PART, ROOM as KEPT_ROOM, ROWS as KEPT_ROWS,
-    STEP as KEPT_STEP,
+    SKIN as KEPT_SKIN, STEP as KEPT_STEP,
 };
 pub(crate) use room::{NONE, parked};
 

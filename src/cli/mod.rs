@@ -32,6 +32,7 @@ mod far;
 mod film;
 mod info;
 mod load;
+mod neighbors;
 mod progress;
 mod run;
 mod scenes;

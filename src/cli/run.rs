@@ -6,7 +6,7 @@ use motes::kernel::Backend;
 use motes::run::Folder;
 use motes::run::{Checkpoint, End, Found, Options, Progress as _, Run};
 use motes::scene::{self, Every, Scene};
-use motes::simulation::{PressureSolves, Solves};
+use motes::simulation::{ListReport, PressureSolves, Solves};
 use motes::stability::Verdict;
 use motes::{Cpu, Error, Setup, Simulation};
 use serde_json::json;
@@ -16,7 +16,7 @@ use super::engine::Engine;
 use super::failure::Failure;
 use super::load::{self, Loaded};
 use super::progress::{Progress, SCHEMA};
-use super::{aftermath, conclude, course, solves, stop};
+use super::{aftermath, conclude, course, neighbors, solves, stop};
 use motes::diagnose::{advice, conserved};
 
 /// A checkpoint, its folder, and the errors of newer checkpoints.
@@ -151,9 +151,10 @@ async fn start(
         }
     };
     let result = match driven {
-        Ok(Driven { end, solves, pressures }) => {
+        Ok(Driven { end, solves, pressures, list }) => {
             let concluded = conclude::conclude(&run, end, &conserved, (&progress, device));
             solves::tell(&progress, solves, pressures);
+            neighbors::tell(&progress, list);
             concluded
         }
         Err(error) => Err(explain(&run, error, &setup, verdict.as_ref())),
@@ -171,6 +172,7 @@ struct Driven {
     end: End,
     solves: Option<Solves>,
     pressures: Option<[PressureSolves; 2]>,
+    list: Option<ListReport>,
 }
 
 async fn drive<B: Backend>(
@@ -179,7 +181,8 @@ async fn drive<B: Backend>(
     progress: &mut Progress,
 ) -> Result<Driven, Error> {
     let end = run.drive(simulation, progress).await?;
-    Ok(Driven { end, solves: simulation.solves().await?, pressures: simulation.pressure_solves().await? })
+    let (solves, pressures) = (simulation.solves().await?, simulation.pressure_solves().await?);
+    Ok(Driven { end, solves, pressures, list: simulation.neighbor_list() })
 }
 
 /// Prints the scene, its number of particles and its device.

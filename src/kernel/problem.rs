@@ -62,6 +62,8 @@ pub struct Problem {
     pub columns: Arc<Columns>,
     /// The neighbour list that laws share, if any law is over one.
     pub list: Option<ListShape>,
+    /// The skin of a neighbour list for which no law names one, where a simulation has chosen it \[length\].
+    pub skin: Option<f64>,
     /// The neighbour counts at the start within the ranges for which a law requires them.
     pub neighbors: Vec<Neighbors>,
 }
@@ -113,6 +115,7 @@ impl Problem {
             precision: Precision::Single,
             columns: Arc::default(),
             list: None,
+            skin: None,
             neighbors: Vec::new(),
         }
     }

@@ -67,7 +67,7 @@ impl List {
     /// Its name in a plan.
     #[must_use]
     pub fn title(&self) -> String {
-        let ListShape { range, skin, words, capacity } = self.shape;
+        let ListShape { range, skin, words, capacity, .. } = self.shape;
         let (range, skin) = (shown(range), shown(skin));
         let words = if words > 0 { format!(" WORDS={words}") } else { String::new() };
         format!("list RANGE={range} SKIN={skin} CAPACITY={capacity}{words}")

@@ -4,7 +4,7 @@
 use super::{Simulation, Start};
 use crate::error::Error;
 use crate::kernel::{Array, Backend, STOP};
-use crate::state::{KEPT_PART, KEPT_ROOM, KEPT_ROWS};
+use crate::state::{KEPT_PART, KEPT_ROOM, KEPT_ROWS, KEPT_SKIN};
 
 /// The capacity to provide.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -13,6 +13,8 @@ pub(super) enum Room {
     Rows(u32),
     /// This many neighbours of each particle on the list.
     Neighbors(u32),
+    /// As many neighbours as there are within the range and this skin \[length\].
+    Skin(f64),
     /// Cells of the present box that are wide enough in one whose sides are this part as long.
     Cells(f64),
 }
@@ -29,7 +31,9 @@ impl<B: Backend> Simulation<B> {
         self.complete(&mut state).await?;
         let rows = match room {
             Room::Rows(rows) => Some(rows),
-            Room::Neighbors(_) | Room::Cells(_) => Some(self.capacity()).filter(|_| self.rows.are_open()),
+            Room::Neighbors(_) | Room::Skin(_) | Room::Cells(_) => {
+                Some(self.capacity()).filter(|_| self.rows.are_open())
+            }
         };
         if rows.is_some() {
             state.kept.put(KEPT_ROWS, vec![f64::from(self.first_rows)]);
@@ -38,7 +42,13 @@ impl<B: Backend> Simulation<B> {
         let neighbors = match room {
             Room::Rows(_) | Room::Cells(_) => self.list.map(|list| list.capacity),
             Room::Neighbors(neighbors) => Some(neighbors),
+            Room::Skin(_) => None,
         };
+        let skin = match room {
+            Room::Skin(skin) => Some(skin),
+            _ => self.problem.skin,
+        };
+        state.kept.put(KEPT_SKIN, skin.into_iter().collect());
         state.kept.put(KEPT_ROOM, neighbors.map(f64::from).into_iter().collect());
         if let Room::Cells(part) = room {
             state.kept.put(KEPT_PART, vec![part]);
@@ -49,6 +59,7 @@ impl<B: Backend> Simulation<B> {
         grown.generation = self.generation.saturating_add(1);
         grown.begun &= self.begun;
         grown.goes_on = self.goes_on;
+        grown.skin = self.skin.after(self.steps);
         *self = grown;
         Ok(())
     }

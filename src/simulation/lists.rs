@@ -13,7 +13,7 @@ use crate::forces::{Law, Over, Problem};
 use crate::kernel::{Array, Backend, Element, Kernel, ListShape, Neighbors};
 use crate::life::Life;
 use crate::neighbors::{Cells, LIST, LIST_STATE, LIST_STATE_WORDS};
-use crate::state::{KEPT_NEIGHBORS, KEPT_ROOM, State};
+use crate::state::{KEPT_NEIGHBORS, KEPT_ROOM, KEPT_SKIN, State};
 use crate::visit;
 
 /// The same problem with the neighbour counts that laws require, and with a list that has room for 1.5 times the largest count at the start.
@@ -26,7 +26,8 @@ pub(super) fn counted(setup: &Setup, problem: Problem) -> Result<Problem, Error>
         let active = setup.state.position().iter().enumerate().filter(|(id, _)| setup.state.is_active(*id));
         active.map(|(_, x)| *x).collect()
     };
-    let problem = Problem { neighbors: neighbors(setup, &laws, &places)?, ..problem };
+    let skin = setup.state.kept.get(KEPT_SKIN).and_then(|list| list.first().copied());
+    let problem = Problem { neighbors: neighbors(setup, &laws, &places)?, skin, ..problem };
     let Some(shape) = visit::shared_list(&laws, &problem)? else { return Ok(problem) };
     let places = places();
     let most = Cells::new(&places, setup.bounds, shape.reach())?.most();
@@ -111,6 +112,8 @@ pub(super) struct Origin {
 /// The status of the list, as read back.
 #[derive(Clone, Copy)]
 struct Seen {
+    /// How often it was built.
+    builds: u32,
     /// The largest number of neighbours of any particle.
     longest: u32,
     /// The lowest row with more neighbours than there is room for.
@@ -196,12 +199,20 @@ impl<B: Backend> Simulation<B> {
                 Fit::Soon => Some(Room::Cells(USUAL)),
                 _ => more.filter(|_| !ample).map(Room::Neighbors),
             };
+            let room = room.or_else(|| self.better_skin(shape, seen.builds).map(Room::Skin));
             // What still suffices ends no run: where the device has no room for more, or something else is wrong, it is left unchanged.
             match room {
                 Some(room) if self.is_quiet().await? => {
                     self.repeat.from = None;
                     match Box::pin(self.grow(room)).await {
                         Ok(()) => changed = true,
+                        // A skin was good enough that is kept.
+                        Err(Error::Limit(_) | Error::OutOfMemory(_) | Error::Scene(_))
+                            if matches!(room, Room::Skin(_)) =>
+                        {
+                            self.repeat.sufficed = true;
+                            return Ok(changed);
+                        }
                         Err(Error::Limit(_) | Error::OutOfMemory(_)) => {
                             self.repeat.sufficed = true;
                             return Ok(changed);
@@ -255,11 +266,12 @@ impl<B: Backend> Simulation<B> {
     }
     async fn seen(&mut self) -> Result<Seen, Error> {
         let state = self.backend.read(LIST_STATE, &Array::Uint(Vec::new()), LIST_STATE_WORDS).await?;
-        let (longest, full) = match u32::view(&state).map(Vec::as_slice) {
-            Some([_, _, longest, full]) => (*longest, *full),
-            _ => (0, 0),
-        };
-        Ok(Seen { longest, overflown: (full > 0).then_some(!full) })
+        Ok(match u32::view(&state).map(Vec::as_slice) {
+            Some([_, builds, longest, full]) => {
+                Seen { builds: *builds, longest: *longest, overflown: (*full > 0).then_some(!full) }
+            }
+            _ => Seen { builds: 0, longest: 0, overflown: None },
+        })
     }
     fn full(&self, shape: ListShape, row: u32, longest: u32) -> Error {
         Error::ListFull { particle: self.named(row), longest, capacity: shape.capacity, reach: shape.reach() }

@@ -13,8 +13,8 @@ use crate::boundary;
 use crate::error::Error;
 use crate::integrators::{SOLVE_REPORT, kept_rates};
 use crate::kernel::{
-    ALARM, Array, Backend, Column, Columns, HOME, ID, Kernel, LARGEST_CRITERION, LIFE, LOW_WORDS, Plan, QUIET, Role,
-    STEP_CLOCK, STEP_CLOCK_WORDS, STEP_CRITERIA, TICKS, World, extent, split,
+    ALARM, Array, Backend, Column, Columns, HOME, ID, Kernel, LARGEST_CRITERION, LIFE, LOW_WORDS, Plan, Problem, QUIET,
+    Role, STEP_CLOCK, STEP_CLOCK_WORDS, STEP_CRITERIA, TICKS, World, extent, split,
 };
 use crate::life::Life;
 use crate::links::Links;
@@ -134,12 +134,17 @@ impl Print {
     }
 }
 
+/// Whether a run may go on with a list of other cells or another skin: a box that changes, or a skin that is chosen while it runs.
+pub(super) fn any_list(problem: &Problem) -> bool {
+    problem.elastic.is_some() || problem.list.is_some_and(|list| list.tuned)
+}
+
 /// A hash that two steps share only if they perform the same operations: names are ignored, and so is the capacity of a neighbour list,
-/// which depends on when it was checked. In an `elastic` box so do its cells: the list is the same by any.
-pub(super) fn print(step: &Plan, elastic: bool) -> u64 {
+/// which depends on when it was checked. With `any_list` so do its cells and its skin: pairs in range are the same by any.
+pub(super) fn print(step: &Plan, any_list: bool) -> u64 {
     let mut print = Print::new();
     let is_list = |kernel: &&Kernel| kernel.tables.iter().any(|(name, _)| name == visit::LIST_ALL);
-    for kernel in step.steps().filter(|kernel| !(elastic && is_list(kernel))) {
+    for kernel in step.steps().filter(|kernel| !(any_list && is_list(kernel))) {
         for pass in &kernel.passes {
             print.add(pass.shader.text().as_bytes());
             pass.constants.iter().filter(|(name, _)| *name != visit::LIST_ROOM).for_each(|(name, value)| {

@@ -29,6 +29,8 @@ pub(crate) const ROWS: &str = "kept_rows";
 pub(crate) const NEIGHBORS: &str = "kept_neighbors";
 /// The number of neighbours per particle that a list has room for: set by a simulation that grows, never in a state that it returns.
 pub(crate) const ROOM: &str = "kept_room";
+/// The skin of its list, where a simulation has chosen it \[length\]: likewise.
+pub(crate) const SKIN: &str = "kept_skin";
 /// The part of the sides of a box for which cells are to be wide enough: likewise.
 pub(crate) const PART: &str = "kept_part";
 

@@ -13,7 +13,7 @@ use crate::neighbors::{HISTORY, LIST, List};
 
 /// Rows of one dispatch, at most. It is an integer of workgroups.
 const ROWS: u32 = 1 << 20;
-/// The default skin, as a part of the range.
+/// The skin at the start where none is given, as a part of the range.
 const SKIN: f64 = 0.2;
 /// Words of history of a pair that are held in registers, at most: the length of an array in `shaders/visit/history_held.wgsl`.
 const HELD: u32 = 8;
@@ -29,7 +29,8 @@ pub fn shared(laws: &[Law], problem: &Problem) -> Result<Option<ListShape>, Erro
     let mut reach = 0.0_f64;
     for law in laws {
         let Over::List { range, skin, slots } = law.over.faster(law.asks_velocities(), problem) else { continue };
-        let own = ListShape { range, skin: skin.unwrap_or(SKIN * range), words: slots, capacity: 4 };
+        let (tuned, usual) = (skin.is_none(), problem.skin.unwrap_or(SKIN * range));
+        let own = ListShape { range, skin: skin.unwrap_or(usual), tuned, words: slots, capacity: 4 };
         // Errors of a law's own list are reported for that law.
         let own = List::new(own, problem)?.shape;
         reach = reach.max(own.reach());
@@ -41,7 +42,8 @@ pub fn shared(laws: &[Law], problem: &Problem) -> Result<Option<ListShape>, Erro
                 law.name
             )));
         }
-        shape = Some(ListShape { range: known.range.max(range), words: known.words.max(slots), ..known });
+        let (range, words, tuned) = (known.range.max(range), known.words.max(slots), known.tuned && tuned);
+        shape = Some(ListShape { range, words, tuned, ..known });
     }
     let shape = shape.map(|shape| ListShape { skin: reach - shape.range, ..shape });
     Ok(shape.map(|shape| shape.with_room(UNCOUNTED, problem.capacity)))

@@ -132,7 +132,7 @@ impl Place<'_> {
         let plane = |x: DVec3| if flat { x.with_z(0.0) } else { x };
         let place = |x: DVec3| plane((self.bounds.low + side * (0.5 + 0.5 * x)).as_vec3().as_dvec3());
         let places: Vec<DVec3> = (0..count).map(|_| place(random.vector())).collect();
-        let shape = ListShape { range: RANGE, skin: SKIN, words: self.slots, capacity: self.capacity };
+        let shape = ListShape { range: RANGE, skin: SKIN, tuned: false, words: self.slots, capacity: self.capacity };
         let problem = Problem::new(count as u32, self.machine).at(&places, self.bounds);
         let elastic = self.stretch.map(|part| part.min(0.9));
         let problem = problem.with_life(&[], &[], self.has_inactive).listed(Some(shape)).stretched(elastic);

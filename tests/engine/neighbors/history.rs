@@ -14,12 +14,12 @@ use crate::support::{self, machines};
 
 /// A power of two: nothing is rounded, and particles move on.
 const PART: f64 = 1.0 / 1_048_576.0;
-const RANGE: f64 = 0.31;
+pub const RANGE: f64 = 0.31;
 
 /// Counts the steps that each pair has been in range without a break, and the ids that it has seen on the way.
 #[derive(Clone)]
-struct Steps {
-    skin: f64,
+pub struct Steps {
+    pub skin: Option<f64>,
 }
 
 impl Component for Steps {
@@ -32,7 +32,7 @@ impl Component for Steps {
             (*sum).acceleration += vec3f(steps, recall(you, 1u), 1.0);
         }
         fn finish(me: Particle, sum: Sum) -> vec4f { return vec4f(sum.acceleration, 0.0) / 1048576.0; }";
-        let over = (RANGE, Some(self.skin), 2);
+        let over = (RANGE, self.skin, 2);
         vec![Law::remembering(
             "steps",
             over,
@@ -83,7 +83,7 @@ fn a_map_by_ids_remembers_the_same() {
         [(flock(), side(1.0), 0.1), (flock(), Bounds::default(), 0.0), (jet(0.15, 0.6, 0.7), side(0.8), 0.15)]
     {
         for (variant, machine) in variants(&shared) {
-            let setup = setup(&state, bounds, Box::new(Steps { skin }), 7e-3);
+            let setup = setup(&state, bounds, Box::new(Steps { skin: Some(skin) }), 7e-3);
             let mut simulation = on(&shared, machine, &setup);
             let mut known = Map::new();
             let mut longest = 0.0_f64;
@@ -244,7 +244,7 @@ fn goes_on<B: Backend>(whole: &Setup, stops: &[u64], on: impl Fn(&Setup) -> Simu
 fn a_list_that_grows_remembers() {
     let shared = support::device();
     for (seed, batch) in [(8, 60), (21, STEPS)] {
-        let setup = inward(250, seed, Box::new(Steps { skin: 0.1 }));
+        let setup = inward(250, seed, Box::new(Steps { skin: Some(0.1) }));
         let [x, v, long_x, long_v] = collapsed(&shared, &setup, batch);
         assert!(x == long_x && v == long_v, "seed {seed}, {batch} steps at a time: other bits");
     }
@@ -254,7 +254,7 @@ fn a_list_that_grows_remembers() {
 #[test]
 fn history_does_something() {
     let shared = support::device();
-    let whole = setup(&flock(), Bounds::default(), Box::new(Steps { skin: 0.1 }), DT);
+    let whole = setup(&flock(), Bounds::default(), Box::new(Steps { skin: Some(0.1) }), DT);
     let mut simulation = on(&shared, variants(&shared)[0].1, &whole);
     simulation.step(20).expect("steps");
     let state = pollster::block_on(simulation.snapshot()).expect("a state");
@@ -307,7 +307,7 @@ fn states_that_say_nothing_of_pairs_are_refused() {
     let mut simulation = on(&shared, variants(&shared)[0].1, &whole);
     simulation.step(5).expect("steps");
     let state = pollster::block_on(simulation.snapshot()).expect("a state");
-    let text = refused(state, Box::new(Steps { skin: 0.1 }));
+    let text = refused(state, Box::new(Steps { skin: Some(0.1) }));
     assert!(text.contains("3 numbers for each pair") && text.contains("keeps 2"), "{text}");
 }
 
@@ -321,7 +321,7 @@ fn what_cannot_remember_is_refused() {
             other => panic!("{other:?}"),
         }
     };
-    let text = refusal(vec![Box::new(Contact), Box::new(Steps { skin: 0.1 })]);
+    let text = refusal(vec![Box::new(Contact), Box::new(Steps { skin: Some(0.1) })]);
     assert!(text.contains("`steps` the second of them") && text.contains("slots for one"), "{text}");
     #[derive(Clone)]
     struct Forgetful;

@@ -17,6 +17,7 @@ mod properties;
 mod refusals;
 mod runs;
 mod sizes;
+mod skin;
 
 use crate::support::states::integrator;
 use crate::support::{Shared, machines};
