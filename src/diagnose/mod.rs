@@ -4,6 +4,7 @@
 mod advice;
 mod baths;
 mod births;
+mod bonds;
 mod contradictions;
 mod crowds;
 mod far;

@@ -25,20 +25,35 @@ pub const ID: Field<u32> = Field::new("id");
 pub const TARGET: Field<Vec4> = Field::new("kinematic_target");
 /// The positions of fixed particles at the start, in the order of [`Problem::held`](super::Problem::held).
 pub const HOME: Field<Vec4> = Field::new("home");
-/// Failures that kernels detect, word by word; `u32::MAX` in the first five and the last four while there are none.
+/// Failures that kernels detect, word by word; `u32::MAX` in the first five and the last six while there are none.
 ///
 /// 0 and 1: after how many steps a particle is first seen not to be finite, and the lowest id of those; 2: the lowest id
 /// of a particle with more neighbours than a search can visit; 3 and 4: after how many steps a runaway of speeds is
 /// detected, and the lowest id of such particles. Then its criterion, with the bits of speeds as `f32`: 5: the maximum of the
 /// current 16 steps; 6: that of the previous 16; 7: how many times in a row it has more than doubled. 8: the mark of a user's law
 /// with loops that the driver has ended early; 9: that of one with loops without end; 10: the driver folds compensated sums; 11: the complement
-/// of the highest word of a pair's history that a law names beyond its slots.
+/// of the highest word of a pair's history that a law names beyond its slots; 12 and 13: after how many steps a bond is first seen to be longer than its law admits, and the lowest
+/// particle with one then.
 pub const ALARM: Field<u32> = Field::new("alarm");
 /// The words of the alarm.
-pub const ALARM_WORDS: usize = 12;
+pub const ALARM_WORDS: usize = 14;
 /// The alarm without any failure.
-pub const QUIET: [u32; ALARM_WORDS] =
-    [u32::MAX, u32::MAX, u32::MAX, u32::MAX, u32::MAX, 0, 0, 0, u32::MAX, u32::MAX, u32::MAX, u32::MAX];
+pub const QUIET: [u32; ALARM_WORDS] = [
+    u32::MAX,
+    u32::MAX,
+    u32::MAX,
+    u32::MAX,
+    u32::MAX,
+    0,
+    0,
+    0,
+    u32::MAX,
+    u32::MAX,
+    u32::MAX,
+    u32::MAX,
+    u32::MAX,
+    u32::MAX,
+];
 /// The constant of a shader that holds the mark of a user's law, by which an alarm names it.
 pub const LAW: &str = "LAW";
 

@@ -11,7 +11,7 @@ use crate::kernel::{Bounds, Side};
 /// `pressure.csv`.
 pub const MEASURE: Measure = Measure {
     name: "pressure",
-    about: "the pressure tensor of a closed box, (Σ m v ⊗ v − Σ r ⊗ F) / V over particles that are not fixed and pairs in range (Allen & Tildesley 2017, 2.4)",
+    about: "the pressure tensor of a closed box, (Σ m v ⊗ v − Σ r ⊗ F) / V over particles that are not fixed and pairs in range, links and joints (Allen & Tildesley 2017, 2.4)",
     keys: &[],
     cells: &[
         ("pressure", "a third of xx + yy + zz; half of xx + yy in the plane [mass / length / time²]"),

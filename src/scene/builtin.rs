@@ -62,6 +62,7 @@ pub const SCENES: &[Builtin] = scenes![
     "salt",
     "argon",
     "vapour",
+    "polymer",
     "nanowire",
     "pile",
     "hopper",

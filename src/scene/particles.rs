@@ -8,6 +8,7 @@ use crate::error::Error;
 use crate::formats;
 use crate::kernel::{Column, Columns};
 use crate::motion::{Held, Hold, Motion};
+use crate::render::group_color;
 use crate::settings::{Key, Kind, Settings, Value};
 use crate::shapes::{Amount, SHAPES, Shape};
 use crate::state::State;
@@ -186,8 +187,12 @@ fn from_shape(
     out.settings(shape.keys, &shown);
     match (shape.build)(&settings) {
         Ok(particles) => {
-            let own = |key| color::known(settings.text(key));
-            parts.extend((shape.parts)(&settings).into_iter().map(|(key, count)| (count, own(key))));
+            let plain = table.get("color").is_none();
+            let own = |(part, key): (u32, &str)| {
+                if key.is_empty() { plain.then(|| group_color(part)) } else { color::known(settings.text(key)) }
+            };
+            let all = (1..).zip((shape.parts)(&settings));
+            parts.extend(all.map(|(part, (key, count))| (count, own((part, key)))));
             Some(particles)
         }
         Err(why) => {

@@ -113,7 +113,7 @@ fn build(settings: &Settings) -> Result<State, Error> {
 }
 
 /// Normal velocities without their mean, scaled so that their squares add up to (3 N − 3) times a square.
-fn heat(particles: &mut State, square: f64, random: &mut Random) {
+pub(super) fn heat(particles: &mut State, square: f64, random: &mut Random) {
     let count = particles.len() as f64;
     if count < 2.0 || square <= 0.0 {
         return;

@@ -4,6 +4,7 @@ mod amount;
 pub mod block;
 mod build;
 pub mod chain;
+mod chains;
 pub mod cloth;
 pub mod clusters;
 pub mod crowd;
@@ -48,7 +49,8 @@ pub struct Shape {
     pub build: fn(&Settings) -> Result<State, Error>,
     /// The maximum amount that it makes, for valid settings, so that memory is checked first. Zero where only `build` can determine it.
     pub amount: fn(&Settings) -> Amount,
-    /// The parts after its first one, if it has several, in the order of ids: the key of the colour of each, and its number of particles.
+    /// The parts after its first one, if it has several, in the order of ids: the key of the colour of each, or none where each has
+    /// one of the palette, and its number of particles.
     /// For settings that `build` accepts.
     pub parts: fn(&Settings) -> Vec<(&'static str, u32)>,
     /// The keys by which its number of particles goes.
@@ -110,6 +112,7 @@ pub const SHAPES: &[Shape] = &[
     grains::GRAINS,
     crowd::CROWD,
     chain::CHAIN,
+    chains::CHAINS,
     cloth::CLOTH,
     jelly::JELLY,
     hair::HAIR,

@@ -36,15 +36,15 @@ impl<B: Backend> Simulation<B> {
     /// [`Error::TooManyNeighbors`], [`Error::CutShort`], [`Error::Endless`], [`Error::TooShort`], or what reading says.
     pub async fn check(&mut self) -> Result<(), Error> {
         let mut alarm = self.alarm().await?;
-        let [.., cut, endless, _, _] = alarm;
+        let [_, _, _, _, _, _, _, _, cut, endless, ..] = alarm;
         // Sums that lack neighbours lead to numbers that are not finite, and to runaway speeds.
         if cut == u32::MAX && endless == u32::MAX && self.settle().await? {
             alarm = self.alarm().await?;
         }
         let [done, .., fast, particle] = [alarm[0], alarm[1], alarm[3], alarm[4]];
         // A runaway leads to numbers that are not finite in the end: the first cause is reported.
-        let [.., cut, endless, _, _] = alarm;
-        if fast != u32::MAX && fast <= done && cut == u32::MAX && endless == u32::MAX {
+        let [_, _, _, _, _, _, _, _, cut, endless, _, _, long, _] = alarm;
+        if fast != u32::MAX && fast <= done && long == u32::MAX && cut == u32::MAX && endless == u32::MAX {
             let particle = self.named(particle);
             return Err(Error::Runaway { particle, step: u64::from(fast.saturating_sub(1)) });
         }
@@ -74,9 +74,23 @@ impl<B: Backend> Simulation<B> {
         self.backend.run(&self.measure.1, 1)?;
         Ok((!self.settle().await?).then_some(alarm))
     }
+    /// The error of a bond that is too long, by the row of its lower end.
+    fn overlong(&self, row: u32, step: u32) -> Error {
+        let springs = self.ties.springs().iter().filter(|link| link.ends[0].min(link.ends[1]) == row);
+        let partners: Vec<String> =
+            springs.map(|link| self.named(link.ends[0].max(link.ends[1])).to_string()).collect();
+        let particle = self.named(row);
+        let bond = match &partners[..] {
+            [partner] => format!("the bond of particles {particle} and {partner}"),
+            all => format!("a bond of particle {particle}, with one of {},", all.join(", ")),
+        };
+        let laws = self.setup.forces.iter().flat_map(|force| force.laws());
+        let longest = laws.filter_map(|law| law.longest).fold(f64::INFINITY, f64::min);
+        Error::Overlong { particle, bond, longest, step: u64::from(step) }
+    }
     /// Whether laws were evaluated completely, all numbers are finite, and searches have found all particles.
     pub(super) fn sound(&self, alarm: &[u32; ALARM_WORDS]) -> Result<(), Error> {
-        let [done, particle, crowded, .., cut, endless, folded, beyond] = *alarm;
+        let [done, particle, crowded, _, _, _, _, _, cut, endless, folded, beyond, long, end] = *alarm;
         if folded != u32::MAX {
             return Err(Error::Device(format!(
                 "the driver folds compensated sums, so that precision = \"{}\" would keep no more digits than single: choose precision = \
@@ -95,6 +109,9 @@ impl<B: Backend> Simulation<B> {
         }
         if cut != u32::MAX {
             return Err(Error::CutShort { law: law(cut) });
+        }
+        if long != u32::MAX {
+            return Err(self.overlong(end, long));
         }
         if done != u32::MAX {
             // The first check comes before the first step, every other one after a completed step.

@@ -8,7 +8,7 @@ use crate::error::Error;
 use crate::floor_plan::FloorPlan;
 use crate::kernel::{Array, Backend, Element};
 use crate::life::{Birth, Drain};
-use crate::links::{Links, Network, WORDS};
+use crate::links::{Link, Links, Network, WORDS};
 use crate::motion::{Held, Motion};
 use crate::state::State;
 use crate::visit::LINK;
@@ -34,6 +34,10 @@ impl Ties {
     /// Replaces the motions from now on.
     pub fn lead(&mut self, motions: Vec<Motion>) {
         self.motions = motions;
+    }
+    /// The springs, by rows.
+    pub fn springs(&self) -> &[Link] {
+        &self.links.springs
     }
     /// The drains.
     pub fn drains(&self) -> &[Drain] {

@@ -1,4 +1,4 @@
-//! The virial of all forces of pairs, computed on request.
+//! The virial of all forces of pairs, links and joints, computed on request.
 
 use super::{Setup, Simulation};
 use crate::component::pressure::{self, ROUNDING};
@@ -22,11 +22,11 @@ impl Setup {
 }
 
 impl<B: Backend> Simulation<B> {
-    /// The virial −½ Σ r ⊗ F of all forces of pairs at the end of the last step \[energy\]: xx, yy, zz, yz, xz, xy. The force of a pair is
+    /// The virial −½ Σ r ⊗ F of all forces of pairs, links and joints at the end of the last step \[energy\]: xx, yy, zz, yz, xz, xy. The force of a pair is
     /// that of a law for one neighbour. It evaluates the forces once more, which does not change the run.
     ///
     /// # Errors
-    /// [`Error::Scene`] where a force is none of pairs in range, or those of pairs do not add up to the force on a particle; and those of
+    /// [`Error::Scene`] where a force is none of pairs in range, links or joints, or those of pairs do not add up to the force on a particle; and those of
     /// [`Simulation::snapshot`].
     pub async fn virial(&mut self) -> Result<[f64; 6], Error> {
         // A list that grows and cells that are made anew replace the problem and the backend.

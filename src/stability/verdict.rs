@@ -3,7 +3,7 @@
 use super::bound::Bound;
 use super::mode::{Mode, Network};
 use super::oscillator::Oscillator;
-use super::others;
+use super::{acting, others};
 use crate::error::Error;
 use crate::integrators::{Integrator, SymplecticEuler};
 use crate::simulation::Setup;
@@ -36,11 +36,10 @@ impl Verdict {
     /// # Errors
     /// Errors of a simulation of one particle by the references.
     pub async fn of(setup: &Setup, build: Build<'_>, steps: u64) -> Result<Option<Self>, Error> {
-        let springs = &setup.state.links.springs;
         let names: Vec<String> = setup.forces.iter().flat_map(|force| force.laws()).map(|law| law.name).collect();
         // Two forces of a kind act twice.
         let acts = |kind: &str| names.iter().filter(|name| *name == kind).count() as f64;
-        let springs = if acts("spring") > 0.0 { springs.as_slice() } else { &[] };
+        let springs = &*acting(setup);
         let bending = acts("joint") > 0.0 && !setup.state.links.joints.is_empty();
         if springs.is_empty() && !bending {
             return Ok(None);
@@ -55,10 +54,8 @@ impl Verdict {
         let duration = setup.dt * steps as f64;
         let joints = acts("joint") * others::joints(setup, &masses);
         let (stiffness, damping) = others::each(setup);
-        let highest = Mode {
-            stiffness: acts("spring") * bound.stiffness.sum + joints + stiffness,
-            damping: acts("spring") * bound.damping.sum + damping,
-        };
+        let highest =
+            Mode { stiffness: bound.stiffness.sum + joints + stiffness, damping: bound.damping.sum + damping };
         let mut safe = safe(build, highest, duration).await?;
         if build().is_implicit() && joints > 0.0 {
             // They stay explicit in the same step.
@@ -74,8 +71,7 @@ impl Verdict {
         if setup.dt > safe && !springs.is_empty() {
             let network = Network::new(springs, &masses, setup.state.position(), &setup.bounds);
             for mode in [network.quickest(), network.most_damped()] {
-                let (stiffness, damping) = (acts("spring") * mode.stiffness, acts("spring") * mode.damping);
-                verdict.lost = verdict.lost.min(limit(build, Mode { stiffness, damping }, duration).await?);
+                verdict.lost = verdict.lost.min(limit(build, mode, duration).await?);
             }
         }
         Ok(Some(verdict))

@@ -399,6 +399,35 @@ typed! {
         /// The radius at which particles are drawn \[length\]; 0: chosen by the picture.
         particle_size: f64,
     }
+    /// Chains that fill a cubic lattice: one random path through all of its places, made by moves of its ends (Mansfield 1982), cut into pieces.
+    Chains "chains" chains(size: DVec3, beads: u32) {
+        /// Places along x, y and z: three whole numbers, 1 or above.
+        size: DVec3,
+        /// Particles in a chain: the number of places is a multiple of it.
+        beads: u32,
+        /// Distance between neighbours on the lattice, and length of each bond \[length\].
+        spacing: f64,
+        /// Whether chains pass through the sides: the box is then as long as its places, `size` times `spacing`, and periodic.
+        periodic: bool,
+        /// Moves of an end of the path, per place: without any, chains lie straight in rows.
+        moves: f64,
+        /// Mass of each particle \[mass\].
+        mass: f64,
+        /// Of each bond: K of `fene`, or Hooke's constant of `spring` \[mass / time²\].
+        stiffness: f64,
+        /// Of each bond, along its axis \[mass / time\].
+        damping: f64,
+        /// K T: velocities are Maxwellian, without total momentum, and have exactly 2 K / (3 N − 3) = k T \[energy\].
+        temperature: f64,
+        /// Seed of the random numbers.
+        seed: u64,
+        /// The position of the centre \[length\].
+        center: DVec3,
+        /// The velocity of the whole \[length / time\].
+        velocity: DVec3,
+        /// The radius at which particles are drawn \[length\]; 0: chosen by the picture.
+        particle_size: f64,
+    }
     /// A sheet of springs: along the threads, across the squares, and over two against bending (Provot 1995).
     Cloth "cloth" cloth(columns: u32, rows: u32) {
         /// Particles along `right`, 2 or above.

@@ -43,6 +43,8 @@ pub struct Law {
     pub reciprocal: bool,
     /// Its Jacobian for implicit integrators, if it has one.
     pub jacobian: Option<Jacobian>,
+    /// Over `links`: the length below which stiff links are \[length\], if there is one: see [`Law::shorter_than`].
+    pub longest: Option<f64>,
     /// Its approximation of a far group, over `tree`.
     pub distant: Distant,
     /// Over `links`: its reference for the tables of a problem.
@@ -51,8 +53,8 @@ pub struct Law {
     pub search: Option<Search>,
     /// Files beside its own, which have the functions that its visit calls.
     pub beside: Vec<Source>,
-    /// The reference of the virial of its pairs; `None` where there is none.
-    pub virial: Option<Reference>,
+    /// The reference of the virial of its pairs, links or joints; `None` where there is none.
+    pub virial: Option<ByTables>,
     /// The number of laws of its name before it, which have tables of the same names: see [`Law::after`].
     pub earlier: usize,
 }
@@ -96,6 +98,7 @@ impl Law {
             reference: None,
             reciprocal: false,
             jacobian: None,
+            longest: None,
             distant: Distant::default(),
             tied: None,
             search: None,
@@ -249,9 +252,14 @@ impl Law {
         gather: impl Fn(&Particle, &Particle, DVec3, &Half, &mut S) + Send + Sync + 'static,
         finish: impl Fn(&Particle, &S) -> DVec4 + Send + Sync + 'static,
     ) -> Self {
-        let tied = reference::links(gather, finish);
+        let (gather, finish) = (Arc::new(gather), Arc::new(finish));
+        let (each, end) = (gather.clone(), finish.clone());
+        let each = move |me: &Particle, you: &Particle, r, link: &Half, sum: &mut S| each(me, you, r, link, sum);
+        let virial = Some(virial::links(each, move |me: &Particle, sum: &S| end(me, sum)));
+        let gather = move |me: &Particle, you: &Particle, r, link: &Half, sum: &mut S| gather(me, you, r, link, sum);
+        let tied = reference::links(gather, move |me: &Particle, sum: &S| finish(me, sum));
         let reference = tied(Tables::None);
-        Self { reciprocal: true, tied: Some(tied), ..Self::plain(name, Over::Links, wgsl, params, reference) }
+        Self { reciprocal: true, tied: Some(tied), virial, ..Self::plain(name, Over::Links, wgsl, params, reference) }
     }
     /// A law of joints or triangles; `rule(corners, place, stiffness, world)` returns the force on the corner with index `place`, and the
     /// energy of the whole, a third of which belongs to each corner.
@@ -262,7 +270,10 @@ impl Law {
         params: Vec<(String, Scalar)>,
         rule: impl Fn([&Particle; 3], &Corner, &World) -> DVec4 + Send + Sync + 'static,
     ) -> Self {
-        Self::plain(name, over, wgsl, params, reference::corners(over, rule))
+        let rule = Arc::new(rule);
+        let virial = (over == Over::Joints).then(|| virial::joints(rule.clone()));
+        let rule = move |at: [&Particle; 3], corner: &Corner, world: &World| rule(at, corner, world);
+        Self { virial, ..Self::plain(name, over, wgsl, params, reference::corners(over, rule)) }
     }
     /// The kernel of the law with its visit, for a problem.
     ///

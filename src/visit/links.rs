@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use super::{Law, Over, Tables};
 use crate::error::Error;
-use crate::kernel::{Kernel, Name, Pass, Problem, Shader};
+use crate::kernel::{ALARM, ALARM_WORDS, Kernel, Name, Pass, Problem, Shader};
 use crate::links::Network;
 
 /// The start of each particle's links, and the links; for joints and triangles these names of the shader are bound to other tables.
@@ -56,7 +56,10 @@ pub fn kernel(law: Law, problem: &Problem) -> Result<Kernel, Error> {
     } else {
         "fn gather(me: Particle, you: Particle, r: vec3f, link: Link, sum: ptr<function, Sum>)"
     };
-    law.requires(&[("gather", gather), law.finish()])?;
+    // The virial of a law has these functions in several files.
+    if law.beside.is_empty() {
+        law.requires(&[("gather", gather), law.finish()])?;
+    }
     let mut files = vec![crate::shader!("world.wgsl"), crate::shader!("fields.wgsl"), problem.precision.particle()];
     let tables = Tables::of(problem);
     if corners {
@@ -81,8 +84,9 @@ pub fn kernel(law: Law, problem: &Problem) -> Result<Kernel, Error> {
         _ => network.link_start.last(),
     };
     let work = u64::from(problem.capacity) + u64::from(elements.copied().unwrap_or(0));
+    let alarms = shader.reflection().binding(ALARM.name).is_some();
+    let sizes = if alarms { vec![(ALARM.name.into(), ALARM_WORDS as u64)] } else { Vec::new() };
     let pass = Pass { constants, uniforms, work, ..Pass::new(shader, problem.capacity) };
-    let sizes = law.alarm();
     let reference = match &law.tied {
         Some(reference) => Some(reference(tables)),
         None => law.reference,

@@ -9,6 +9,7 @@ mod links;
 mod list;
 mod near;
 mod over;
+mod overlong;
 mod pair_table;
 mod pairs;
 mod particle;

@@ -1,16 +1,19 @@
-//! The virial of a law of pairs, by the same functions as its accelerations.
+//! The virial of a law of pairs, links or joints, by the same functions as its accelerations.
 
 use std::sync::Arc;
 
 use glam::{DVec3, DVec4, Vec4};
 use rayon::prelude::*;
 
-use super::{Law, Over, Particle, View};
+use super::reference::ByTables;
+use super::tied::row;
+use super::{Law, Over, Particle, Tables, Tied, View};
 use crate::error::Error;
 use crate::kernel::{ACCELERATION, Field, Kernel, Name, Pass, Problem, Reference, Shader, Source, World};
+use crate::links::{Corner, Half};
 
-/// −½ Σ r ⊗ F of each particle \[energy\], two elements of it: xx, yy, zz, and by how much forces of pairs do not add up to the force; yz,
-/// xz, xy, and the sum of their sizes \[force\].
+/// −½ Σ r ⊗ F of each particle, and of a joint (x − x₂) ⊗ F at each of its ends \[energy\], two elements of it: xx, yy, zz, and by how much
+/// these forces do not add up to the force; yz, xz, xy, and the sum of their sizes \[force\].
 pub const VIRIAL: Field<Vec4> = Field::new("virial");
 
 /// Sums over parts of all pairs, by their name in WGSL, and those of the virial.
@@ -24,7 +27,7 @@ impl Law {
     /// A kernel that adds the virial of its forces; `None` for a law that exerts none between particles.
     ///
     /// # Errors
-    /// [`Error::Scene`] where they are not those of pairs in range.
+    /// [`Error::Scene`] where they are not those of pairs in range, of links or of joints.
     pub fn virial(&self, problem: &Problem) -> Result<Option<Kernel>, Error> {
         if !self.accelerates() || self.over == Over::Each {
             return Ok(None);
@@ -32,7 +35,12 @@ impl Law {
         let law = self.settled(problem);
         let refuse = |why: &str| Err(no_virial(&self.name, why));
         match law.over {
-            Over::Pairs | Over::Within { .. } | Over::Near { .. } | Over::List { slots: 0, .. } => {}
+            Over::Links
+            | Over::Joints
+            | Over::Pairs
+            | Over::Within { .. }
+            | Over::Near { .. }
+            | Over::List { slots: 0, .. } => {}
             Over::List { .. } => return refuse("keeps history of pairs"),
             over => return refuse(&format!("is evaluated over \"{}\"", over.name())),
         }
@@ -47,8 +55,9 @@ impl Law {
         }
         let name = format!("virial of {}", law.name);
         let [wgsl, beside @ ..] = &law.files_of_virial()[..] else { return Ok(None) };
-        let (wgsl, beside, reference) = (wgsl.clone(), beside.to_vec(), law.virial.clone());
-        let law = Self { name, wgsl, beside, into: Vec::new(), reference, ..law };
+        let (wgsl, beside) = (wgsl.clone(), beside.to_vec());
+        let reference = law.virial.as_ref().map(|by| by(Tables::of(problem)));
+        let law = Self { name, wgsl, beside, into: Vec::new(), reference, tied: None, ..law };
         let mut kernel = law.clone().visiting(problem)?;
         law.bind_tables(&mut kernel, problem)?;
         // Its sums are longer than those of the law.
@@ -73,7 +82,13 @@ impl Law {
         let mut files = vec![renamed(&self.wgsl)];
         files.extend(self.sums().iter().map(renamed));
         let merges = files.iter().any(|file| file.says(&["fn", "pair_merge", "("]));
+        files.extend(self.beside.iter().map(renamed));
         files.push(crate::shader!("visit/virial.wgsl"));
+        files.push(match self.over {
+            Over::Links => crate::shader!("visit/virial_links.wgsl"),
+            Over::Joints => crate::shader!("visit/virial_joints.wgsl"),
+            _ => crate::shader!("visit/virial_pairs.wgsl"),
+        });
         files.extend(merges.then_some(crate::shader!("visit/virial_merge.wgsl")));
         files
     }
@@ -83,7 +98,7 @@ impl Law {
 #[must_use]
 pub fn no_virial(name: &str, why: &str) -> Error {
     Error::Scene(format!(
-        "`{name}` {why}, and the virial is that of forces of pairs in range: leave out what measures the pressure"
+        "`{name}` {why}, and the virial is that of forces of pairs in range, of links and of joints: leave out what measures the pressure"
     ))
 }
 
@@ -101,19 +116,42 @@ pub fn clear(problem: &Problem) -> Result<Kernel, Error> {
     Ok(Kernel { sizes: vec![(VIRIAL.name.into(), 2 * u64::from(problem.capacity))], ..kernel })
 }
 
+/// The virial of a particle, as it is summed.
+#[derive(Default)]
+struct Parts {
+    normal: DVec3,
+    shear: DVec3,
+    sum: DVec3,
+    size: f64,
+}
+
+impl Parts {
+    /// Adds a force, with the way to its source, and its part in their virial.
+    fn add(&mut self, r: DVec3, f: DVec3, part: f64) {
+        self.normal -= part * r * f;
+        self.shear -= 0.5 * part * DVec3::new(r.y * f.z + r.z * f.y, r.x * f.z + r.z * f.x, r.x * f.y + r.y * f.x);
+        self.sum += f;
+        self.size += f.length();
+    }
+    /// Adds it to the two elements of a particle that has this force in all.
+    fn store(&self, result: &mut [DVec4], whole: DVec3) {
+        result[0] += self.normal.extend((whole - self.sum).length());
+        result[1] += self.shear.extend(self.size);
+    }
+}
+
 /// The reference: all pairs in range.
 pub fn reference<S: Default>(
     over: Over,
     gather: impl Fn(&Particle, &Particle, DVec3, &World, &mut S) + Send + Sync + 'static,
     finish: impl Fn(&Particle, &S, &World) -> DVec4 + Send + Sync + 'static,
-) -> Reference {
-    Arc::new(move |host| {
+) -> ByTables {
+    let reference: Reference = Arc::new(move |host| {
         let view = View::of(host)?;
         let (bodies, world) = (view.particles(), host.world());
         let mut virial = host.write(VIRIAL)?;
         virial.par_chunks_mut(2).zip(&bodies).for_each(|(result, me)| {
-            let mut whole = S::default();
-            let (mut normal, mut shear, mut sum, mut size) = (DVec3::ZERO, DVec3::ZERO, DVec3::ZERO, 0.0);
+            let (mut whole, mut parts) = (S::default(), Parts::default());
             let force = |sum: &S| me.mass * (finish(me, sum, &world) - finish(me, &S::default(), &world)).truncate();
             for you in bodies.iter().filter(|you| you.index != me.index && me.is_active() && you.is_active()) {
                 let way = you.position - me.position;
@@ -123,15 +161,65 @@ pub fn reference<S: Default>(
                 let (mut pair, r) = (S::default(), world.bounds.shortest(way));
                 gather(me, you, r, &world, &mut pair);
                 gather(me, you, r, &world, &mut whole);
-                let f = force(&pair);
-                normal -= 0.5 * r * f;
-                shear -= 0.25 * DVec3::new(r.y * f.z + r.z * f.y, r.x * f.z + r.z * f.x, r.x * f.y + r.y * f.x);
-                sum += f;
-                size += f.length();
+                parts.add(r, force(&pair), 0.5);
             }
-            result[0] += normal.extend((force(&whole) - sum).length());
-            result[1] += shear.extend(size);
+            parts.store(result, force(&whole));
         });
         Ok(())
+    });
+    Arc::new(move |_| reference.clone())
+}
+
+/// The reference of links.
+pub fn links<S: Default>(
+    gather: impl Fn(&Particle, &Particle, DVec3, &Half, &mut S) + Send + Sync + 'static,
+    finish: impl Fn(&Particle, &S) -> DVec4 + Send + Sync + 'static,
+) -> ByTables {
+    let rule = Arc::new((gather, finish));
+    Arc::new(move |tables| -> Reference {
+        let rule = rule.clone();
+        Arc::new(move |host| {
+            let (view, bounds, tied) = (View::of(host)?, host.world().bounds, Tied::of(host, tables)?);
+            let (bodies, (gather, finish)) = (view.particles(), &*rule);
+            let mut virial = host.write(VIRIAL)?;
+            virial.par_chunks_mut(2).zip(&bodies).for_each(|(result, me)| {
+                let (mut whole, mut parts) = (S::default(), Parts::default());
+                let force = |sum: &S| me.mass * (finish(me, sum) - finish(me, &S::default())).truncate();
+                for half in tied.halves(me.index) {
+                    let you = &bodies[half.partner];
+                    let (mut pair, r) = (S::default(), bounds.shortest(you.position - me.position));
+                    gather(me, you, r, &half, &mut pair);
+                    gather(me, you, r, &half, &mut whole);
+                    parts.add(r, force(&pair), 0.5);
+                }
+                parts.store(result, force(&whole));
+            });
+            Ok(())
+        })
     })
+}
+
+/// The reference of joints.
+pub fn joints(rule: Arc<impl Fn([&Particle; 3], &Corner, &World) -> DVec4 + Send + Sync + 'static>) -> ByTables {
+    let reference: Reference = Arc::new(move |host| {
+        let (view, world) = (View::of(host)?, host.world());
+        if !host.contains("joint") {
+            return Ok(());
+        }
+        let (bodies, start, corner) =
+            (view.particles(), host.reading::<u32>("joint_start")?, host.reading::<u32>("joint")?);
+        let mut virial = host.write(VIRIAL)?;
+        virial.par_chunks_mut(2).zip(&bodies).for_each(|(result, me)| {
+            let mut parts = Parts::default();
+            for corner in row(&start, &corner, me.index, Corner::WORDS).map(Corner::new) {
+                let at = corner.ids.map(|id| &bodies[id]);
+                let r = world.bounds.shortest(at[1].position - me.position);
+                parts.add(r, rule(at, &corner, &world).truncate(), 1.0);
+            }
+            let whole = parts.sum;
+            parts.store(result, whole);
+        });
+        Ok(())
+    });
+    Arc::new(move |_| reference.clone())
 }

@@ -146,6 +146,7 @@ fn scenes_scale_by_one_number() {
         "salt",
         "argon",
         "vapour",
+        "polymer",
         "nanowire",
         "pile",
         "hopper",

@@ -90,11 +90,16 @@ type Forces<'a> = &'a dyn Fn() -> Vec<Box<dyn Component>>;
 pub fn all(device: &Device, stages: &mut Vec<Stage>) {
     let solver = |tolerance, iterations, solves| Solver { tolerance, iterations, solves };
     let loose = || forces().into_iter().filter(|force| force.laws()[0].name != "spring").collect();
-    let cases: [(&str, &str, Forces<'_>, Solver, f64); 5] = [
+    let bonds = || {
+        let others = forces().into_iter().filter(|force| force.laws()[0].name != "spring");
+        others.chain([force("fene", &[("max_length", Value::Number(5.5))])]).collect()
+    };
+    let cases: [(&str, &str, Forces<'_>, Solver, f64); 6] = [
         ("runs out", "linear_implicit_midpoint", &forces, solver(1e-5, 2, 1), 3.0),
         ("converges", "linear_backward_euler", &forces, solver(0.3, 3, 1), 3.0),
         ("settles", "backward_euler", &forces, solver(0.4, 3, 3), 1.0),
         ("does not settle", "trapezoid", &forces, solver(1e-4, 2, 2), 3.0),
+        ("is of bonds", "backward_euler", &bonds, solver(0.4, 3, 2), 3.0),
         ("stands alone", "implicit_midpoint", &loose, solver(1e-3, 3, 2), 3.0),
     ];
     let machines = [(true, 256), (false, 1 << 18)];

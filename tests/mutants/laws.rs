@@ -4,11 +4,12 @@
 use glam::{DVec3, Vec4};
 use motes::forces::{Over, Problem};
 use motes::integrators::Step;
-use motes::kernel::{Backend, Machine, POSITION, VELOCITY, World};
+use motes::kernel::{ALARM, Backend, Machine, POSITION, QUIET, VELOCITY, World};
+use motes::links::Link;
 use motes::settings::{Kind, Value};
 use motes::{Bounds, Gpu, Simulation};
 
-use crate::stages::{Device, FEW, Stage, moving, stage};
+use crate::stages::{Device, FEW, Stage, moving, put, stage};
 use crate::support::machines::{kernel, kernels};
 use crate::support::states::force;
 use crate::support::{self, choices};
@@ -60,8 +61,9 @@ pub fn firsts(device: &Device, stages: &mut Vec<Stage>) {
     for links in [&mut alike, &mut each] {
         links.springs.retain(|link| !link.ends.contains(&13));
     }
-    for (name, links) in [("drag", &alike), ("spring", &each), ("spring", &alike)] {
-        let force = [force(name, &[])];
+    for (name, links) in [("drag", &alike), ("spring", &each), ("spring", &alike), ("fene", &alike)] {
+        let longest: &[_] = if name == "fene" { &[("max_length", Value::Number(4.125))] } else { &[] };
+        let force = [force(name, longest)];
         let problem = Problem::new(u32::try_from(FEW).expect("few"), machine).tied(links, &[]);
         let mut step = Step::new(&force, problem.clone());
         step.evaluate();
@@ -94,6 +96,45 @@ pub fn corners(device: &Device, stages: &mut Vec<Stage>) {
         }
         simulation.write(VELOCITY, &velocities).expect("velocities");
         stages.push(stage(&format!("{name}, straight"), simulation, kernel(force(name, &[]).as_ref(), FEW, &machine)));
+    }
+}
+
+/// Bonds that are too long, where that was found in an earlier step, in this one or in a later one; and one without stiffness.
+pub fn overlong(device: &Device, stages: &mut Vec<Stage>) {
+    let places = pollster::block_on(resting(device, Machine::HOST, Bounds::default()).read(POSITION)).expect("places");
+    let mut links = support::links(FEW);
+    // Few of them are bonds, so that none is just as long as they may be.
+    links.springs.iter_mut().enumerate().filter(|(n, _)| n % 8 > 0).for_each(|(_, link)| link.stiffness = 0.0);
+    let length = |link: &Link| {
+        let [a, b] = link.ends.map(|id| places[id as usize].truncate());
+        f64::from(a.distance(b))
+    };
+    let bonds = links.springs.iter().filter(|link| link.stiffness > 0.0);
+    let mut lengths: Vec<f64> = bonds.map(length).filter(|length| (1.0..2.0).contains(length)).collect();
+    lengths.sort_by(f64::total_cmp);
+    let gap = lengths.windows(2).max_by(|a, b| (a[1] - a[0]).total_cmp(&(b[1] - b[0]))).expect("lengths");
+    let longest = f64::from((0.5 * (gap[0] + gap[1])) as f32);
+    let problem = Problem::new(u32::try_from(FEW).expect("few"), Machine::HOST).tied(&links, &[]);
+    let law = force("fene", &[("max_length", Value::Number(longest))]).laws().swap_remove(0);
+    for [step, particle] in [[u32::MAX; 2], [1, 3], [9, 3], [9, 490], [17, 490]] {
+        let mut simulation = resting(device, Machine::HOST, Bounds::default());
+        let clock = pollster::block_on(simulation.backend().world()).expect("a clock");
+        simulation.backend().set_world(World { step: 9, ..clock }).expect("a clock");
+        let mut alarm = QUIET;
+        alarm[12..].copy_from_slice(&[step, particle]);
+        put(&mut simulation, ALARM, &alarm);
+        stages.push(stage(&format!("overlong {step}"), simulation, law.clone().kernel(&problem).expect("a kernel")));
+    }
+}
+
+/// The virials of links, by both of their tables, and of joints.
+pub fn virials(device: &Device, stages: &mut Vec<Stage>) {
+    let links = support::links(FEW);
+    let problem = Problem::new(u32::try_from(FEW).expect("few"), Machine::HOST).tied(&links, &[]);
+    for name in ["spring", "joint"] {
+        let law = force(name, &[]).laws().swap_remove(0);
+        let kernel = law.virial(&problem).expect("a virial").expect("forces");
+        stages.push(stage(&format!("virial of {name}"), resting(device, Machine::HOST, Bounds::default()), kernel));
     }
 }
 

@@ -265,6 +265,8 @@ pub fn all(shared: &Shared) -> Vec<Stage> {
     laws::all(&device, &mut stages);
     laws::firsts(&device, &mut stages);
     laws::corners(&device, &mut stages);
+    laws::overlong(&device, &mut stages);
+    laws::virials(&device, &mut stages);
     columns::all(&device, &mut stages);
     crate::matter::all(shared, &device, &mut stages);
     crate::crowds::all(&device, &mut stages);

@@ -72,6 +72,8 @@ fn values(key: &Key) -> Vec<Value> {
         (Kind::Species, Some(Value::Number(n))) => vec![Value::Text("all".into()), Value::Number(n + 1.0)],
         (Kind::Species, _) => vec![Value::Text("all".into()), Value::Number(1.0)],
         (Kind::Pairs(keys), _) => vec![Value::Pairs(table(keys))],
+        // Longer than any link in a cloud.
+        _ if key.name == "max_length" => vec![Value::Number(4.125)],
         (_, None) => vec![nudged(key.kind, &default(key.kind))],
         (_, Some(value)) => vec![nudged(key.kind, value)],
     }

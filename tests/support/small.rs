@@ -27,6 +27,14 @@ pub const SMALLER: &[(&str, &[&str])] = &[
     ("salt", &["force.0.range=5"]),
     ("argon", &["particles.0.cells=[3, 3, 3]"]),
     ("vapour", &["particles.0.cells=[3, 3, 3]"]),
+    (
+        "polymer",
+        &[
+            "particles.0.size=[5, 5, 6]",
+            "box.low=[-2.63929375, -2.63929375, -3.1671525]",
+            "box.size=[5.2785875, 5.2785875, 6.334305]",
+        ],
+    ),
     ("nanowire", THIN_WIRE),
     ("pile", FEW_GRAINS.split_at(3).0),
     ("hopper", FEW_GRAINS),

@@ -36,6 +36,7 @@ fn every_one_loads_and_says_what_to_see() {
         "salt",
         "argon",
         "vapour",
+        "polymer",
         "nanowire",
         "pile",
         "hopper",

@@ -2,6 +2,7 @@
 
 mod clustered;
 mod disk;
+mod melts;
 mod models;
 mod tied;
 mod tied_bodies;
@@ -21,7 +22,7 @@ fn settings(name: &str, values: &[(&'static str, f64)]) -> Settings {
     let keys = shape(name).expect("a shape").keys;
     let known = |name: &str| keys.iter().find(|key| key.name == name);
     let vectors = ["size", "cells"].map(|key| (key, Value::Vector(DVec3::new(3.0, 4.0, 5.0))));
-    let numbers = [("columns", 6.0), ("rows", 5.0), ("strands", 4.0)];
+    let numbers = [("columns", 6.0), ("rows", 5.0), ("strands", 4.0), ("beads", 4.0)];
     // What has no spacing or density by itself.
     let lacks = |(name, _): &(&str, f64)| known(name).is_some_and(|key| key.default.is_none());
     let given = [("spacing", 0.5), ("density", 0.8), ("radius", 0.25)].into_iter().filter(lacks);
@@ -89,6 +90,7 @@ fn the_bits_never_change() {
         ("grains", 0x409e_763b_a3e1_bf71),
         ("crowd", 0x331f_475d_b979_e6bf),
         ("chain", 0x3d71_07f6_cae9_b2ac),
+        ("chains", 0x9bd7_6ec2_23ce_049c),
         ("cloth", 0xb078_4cef_395b_0d7a),
         ("jelly", 0x2265_3ad0_bdde_76e3),
         ("hair", 0x584b_147e_22f6_7f9b),
@@ -130,7 +132,8 @@ fn every_key_matters() {
             let other = match key.kind {
                 _ if key.name == "surface" => mesh("box"),
                 _ if key.name == "support" => Value::Number(3.0),
-                Kind::Flag => Value::Flag(true),
+                _ if key.name == "beads" => Value::Number(6.0),
+                Kind::Flag => Value::Flag(!base.flag(key.name)),
                 Kind::Sides => mesh("+x"),
                 Kind::File => mesh("v 0 0 0\nv 1 0 0\nv 0 2 0\nf 1 2 3"),
                 Kind::Vector if crowd => Value::Vector(DVec3::new(14.0, 13.0, 0.0)),

@@ -16,6 +16,7 @@ mod liquid;
 mod metal;
 mod minimum;
 mod nist;
+mod polymer;
 mod pressure;
 mod wire;
 
