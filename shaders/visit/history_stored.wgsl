@@ -8,4 +8,4 @@ fn forget(pair: u32) {
     for (var word = 0u; word < SLOTS; word += 1u) { history[word_of(pair, world.step + 1u, word)] = 0.0; }
 }
 
-fn keep(pair: u32) {}
+fn store_history(pair: u32) {}

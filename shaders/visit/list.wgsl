@@ -23,7 +23,7 @@ fn consider(k: u32, id: u32, n: u32, end: u32, me: Particle, sum: ptr<function, 
     if REMEMBERS && n < end { forget(you.pair); }
     let near = r.x * r.x + r.y * r.y + r.z * r.z < RANGE * RANGE;
     if n < end && near { gather(me, you, r, sum); }
-    if REMEMBERS && n < end { keep(you.pair); }
+    if REMEMBERS && n < end { store_history(you.pair); }
 }
 
 @compute @workgroup_size(WORKGROUP)
@@ -45,7 +45,7 @@ fn listed(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: 
         } else if REMEMBERS && head.y != NONE {
             for (var n = 0u; n < head.x; n += 1u) {
                 forget(pair_at(k, n));
-                keep(pair_at(k, n));
+                store_history(pair_at(k, n));
             }
         }
         check_turns(me);

@@ -49,7 +49,7 @@ pub const EQUIVALENT: &[Equivalent] = &[
     ),
     same("visit/list_plain", "const REMEMBERS: bool = false;", "false", "true", "without history nothing is forgotten"),
     same("history_held", "array<f32, 8>", "8", "9", MORE),
-    same("history_held", "{ words_left[word] = 0.0; }", "<", "<=", MORE),
+    same("history_held", "{ history_words[word] = 0.0; }", "<", "<=", MORE),
     same("history_held", "history[word_of(", "+", "-", "the half is that of even or of odd steps"),
     same("history_stored", "history[word_of(you.pair", "+", "-", "the half is that of even or of odd steps"),
     same("history_stored", "history[word_of(pair", "+", "-", "the half is that of even or of odd steps"),
