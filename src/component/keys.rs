@@ -44,7 +44,7 @@ pub const SKIN: Key = Key::new(
     "skin",
     Kind::NotNegative,
     Value::Number(0.0),
-    "over = \"list\" or \"auto\": the skin of the neighbour list beyond the range; 0: a fifth of the range [length]",
+    "over = \"list\" or \"auto\": the skin of the neighbour list beyond the range; 0: a fifth of the range, and chosen anew while it runs [length]",
 );
 
 /// The seed of random numbers.

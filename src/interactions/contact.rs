@@ -33,7 +33,7 @@ pub const KEYS: &[Key] = &[
     grains::CONTACT_ANGLE,
     grains::BRIDGE_VOLUME,
     grains::PAIRS,
-    Key::new("skin", Kind::NotNegative, Value::Number(0.0), "the skin of the neighbour list beyond the range; 0: a fifth of the range [length]"),
+    Key::new("skin", Kind::NotNegative, Value::Number(0.0), "the skin of the neighbour list beyond the range; 0: a fifth of the range, and chosen anew while it runs [length]"),
 ];
 
 /// `contact`: a spring and dashpot along the line between two spheres that overlap, linear or by Hertz, and across it a spring that

@@ -97,7 +97,11 @@ pub(super) const FORCE: &[Own] = &[
         "wgsl: each, pairs, within, near, list, nearest, tree, auto, links, joints or triangles",
     ),
     own("range", "must be given", "wgsl over within, near and list: the cut-off radius [length]"),
-    own("skin", "a fifth of the range", "wgsl over list: the skin of its list beyond the range [length]"),
+    own(
+        "skin",
+        "a fifth of the range",
+        "wgsl over list: the skin of its list beyond the range; without one it is chosen anew while it runs [length]",
+    ),
     own("slots", "0", "wgsl over list: history variables of each pair, which persist from step to step"),
     own("neighbors", "must be given", "wgsl over nearest: the number k of neighbours"),
     own("theta", "must be given", "wgsl over tree and auto: the opening angle, at most 1"),
