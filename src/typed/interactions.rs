@@ -130,7 +130,7 @@ typed! {
         species: Option<u32>,
         /// How neighbours in range are found: by a cell list, by a neighbour list that is reused over steps, by the faster of both, or by brute force; or the k nearest neighbours, of all species, at any distance (Ballerini et al. 2008): near, list, auto, within, nearest.
         over: Cow<'static, str>,
-        /// Over = "list" or "auto": the skin of the neighbour list beyond the range; 0: a fifth of the range \[length\].
+        /// Over = "list" or "auto": the skin of the neighbour list beyond the range; 0: a fifth of the range, and chosen anew while it runs \[length\].
         skin: f64,
         /// Over = "nearest": the number k of neighbours.
         neighbors: u32,
@@ -170,7 +170,7 @@ typed! {
         predators: Option<u32>,
         /// How neighbours in range are found: by a cell list, by a neighbour list that is reused over steps, by the faster of both, or by brute force: near, list, auto, within.
         over: Cow<'static, str>,
-        /// Over = "list" or "auto": the skin of the neighbour list beyond the range; 0: a fifth of the range \[length\].
+        /// Over = "list" or "auto": the skin of the neighbour list beyond the range; 0: a fifth of the range, and chosen anew while it runs \[length\].
         skin: f64,
     }
     /// Predators chase prey.
@@ -187,7 +187,7 @@ typed! {
         prey: Option<u32>,
         /// How neighbours in range are found: by a cell list, by a neighbour list that is reused over steps, by the faster of both, or by brute force: near, list, auto, within.
         over: Cow<'static, str>,
-        /// Over = "list" or "auto": the skin of the neighbour list beyond the range; 0: a fifth of the range \[length\].
+        /// Over = "list" or "auto": the skin of the neighbour list beyond the range; 0: a fifth of the range, and chosen anew while it runs \[length\].
         skin: f64,
     }
     /// A target to steer to and arrive at, or a roost to stay near (Reynolds 1999).
@@ -249,7 +249,7 @@ typed! {
         seed: u64,
         /// How neighbours in range are found: by a cell list, by a neighbour list that is reused over steps, by the faster of both, or by brute force: near, list, auto, within.
         over: Cow<'static, str>,
-        /// Over = "list" or "auto": the skin of the neighbour list beyond the range; 0: a fifth of the range \[length\].
+        /// Over = "list" or "auto": the skin of the neighbour list beyond the range; 0: a fifth of the range, and chosen anew while it runs \[length\].
         skin: f64,
     }
     /// Ions: repulsion and dispersion by pair of species, and damped Coulomb forces of their charges (Born & Mayer 1932).
@@ -264,7 +264,7 @@ typed! {
         damping: f64,
         /// How neighbours in range are found: by a cell list, by a neighbour list that is reused over steps, by the faster of both, or by brute force: near, list, auto, within.
         over: Cow<'static, str>,
-        /// Over = "list" or "auto": the skin of the neighbour list beyond the range; 0: a fifth of the range \[length\].
+        /// Over = "list" or "auto": the skin of the neighbour list beyond the range; 0: a fifth of the range, and chosen anew while it runs \[length\].
         skin: f64,
     }
     /// Lennard-Jones atoms, by pair of species, with four ways to end at the cut-off radius (Lennard-Jones 1931).
@@ -285,7 +285,7 @@ typed! {
         mixing: Cow<'static, str>,
         /// How neighbours in range are found: by a cell list, by a neighbour list that is reused over steps, by the faster of both, or by brute force: near, list, auto, within.
         over: Cow<'static, str>,
-        /// Over = "list" or "auto": the skin of the neighbour list beyond the range; 0: a fifth of the range \[length\].
+        /// Over = "list" or "auto": the skin of the neighbour list beyond the range; 0: a fifth of the range, and chosen anew while it runs \[length\].
         skin: f64,
     }
     /// Atoms that only repel each other: Lennard-Jones up to its minimum (Weeks, Chandler & Andersen 1971).
@@ -300,7 +300,7 @@ typed! {
         mixing: Cow<'static, str>,
         /// How neighbours in range are found: by a cell list, by a neighbour list that is reused over steps, by the faster of both, or by brute force: near, list, auto, within.
         over: Cow<'static, str>,
-        /// Over = "list" or "auto": the skin of the neighbour list beyond the range; 0: a fifth of the range \[length\].
+        /// Over = "list" or "auto": the skin of the neighbour list beyond the range; 0: a fifth of the range, and chosen anew while it runs \[length\].
         skin: f64,
     }
     /// Morse's energy of a bond, between all pairs in range, by pair of species (Morse 1929).
@@ -321,7 +321,7 @@ typed! {
         pairs: Vec<Pair>,
         /// How neighbours in range are found: by a cell list, by a neighbour list that is reused over steps, by the faster of both, or by brute force: near, list, auto, within.
         over: Cow<'static, str>,
-        /// Over = "list" or "auto": the skin of the neighbour list beyond the range; 0: a fifth of the range \[length\].
+        /// Over = "list" or "auto": the skin of the neighbour list beyond the range; 0: a fifth of the range, and chosen anew while it runs \[length\].
         skin: f64,
     }
     /// Screened charges, by pair of species (Debye & Hückel 1923, Yukawa 1935).
@@ -340,7 +340,7 @@ typed! {
         pairs: Vec<Pair>,
         /// How neighbours in range are found: by a cell list, by a neighbour list that is reused over steps, by the faster of both, or by brute force: near, list, auto, within.
         over: Cow<'static, str>,
-        /// Over = "list" or "auto": the skin of the neighbour list beyond the range; 0: a fifth of the range \[length\].
+        /// Over = "list" or "auto": the skin of the neighbour list beyond the range; 0: a fifth of the range, and chosen anew while it runs \[length\].
         skin: f64,
     }
     /// Soft spheres that may overlap, by pair of species (Groot & Warren 1997).
@@ -353,7 +353,7 @@ typed! {
         pairs: Vec<Pair>,
         /// How neighbours in range are found: by a cell list, by a neighbour list that is reused over steps, by the faster of both, or by brute force: near, list, auto, within.
         over: Cow<'static, str>,
-        /// Over = "list" or "auto": the skin of the neighbour list beyond the range; 0: a fifth of the range \[length\].
+        /// Over = "list" or "auto": the skin of the neighbour list beyond the range; 0: a fifth of the range, and chosen anew while it runs \[length\].
         skin: f64,
     }
     /// Granular contacts of spheres: normal springs and dashpots, friction with history, torques (Cundall & Strack 1979).
@@ -392,7 +392,7 @@ typed! {
         bridge_volume: f64,
         /// Factors for pairs of species, as in \[{ species = \[0, 1\], friction = 0.5 }\], by which the values above are multiplied; of two species with values of their own, the pair has both as springs in series, and geometric means of all coefficients; none: all species are alike.
         pairs: Vec<Pair>,
-        /// The skin of the neighbour list beyond the range; 0: a fifth of the range \[length\].
+        /// The skin of the neighbour list beyond the range; 0: a fifth of the range, and chosen anew while it runs \[length\].
         skin: f64,
     }
     /// A wall that grains touch as they touch each other: plane, box, sphere, capsule, tube or funnel, still or moving (Cundall & Strack 1979).
@@ -468,7 +468,7 @@ typed! {
         species: Option<u32>,
         /// How neighbours in range are found: by a cell list, by a neighbour list that is reused over steps, by the faster of both, or by brute force: near, list, auto, within.
         over: Cow<'static, str>,
-        /// Over = "list" or "auto": the skin of the neighbour list beyond the range; 0: a fifth of the range \[length\].
+        /// Over = "list" or "auto": the skin of the neighbour list beyond the range; 0: a fifth of the range, and chosen anew while it runs \[length\].
         skin: f64,
     }
     /// Pedestrians take up their desired speed, along a direction or to a target (Helbing & Molnár 1995).
