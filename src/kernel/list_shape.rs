@@ -7,10 +7,10 @@ pub struct ListShape {
     pub range: f64,
     /// The distance by which the list exceeds the range \[length\].
     pub skin: f64,
-    /// Whether no law names a skin, so that a simulation chooses one while it runs.
-    pub tuned: bool,
     /// Words of history of each pair.
     pub words: u32,
+    /// Whether no law names a skin, so that a simulation chooses one while it runs.
+    pub tuned: bool,
     /// The number of neighbours of one particle that there is room for: a multiple of four.
     pub capacity: u32,
 }
