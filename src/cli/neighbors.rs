@@ -1,6 +1,5 @@
 //! The report on the neighbour list of a run.
 
-use motes::diagnose::digits;
 use motes::simulation::ListReport;
 use serde_json::json;
 
@@ -13,6 +12,11 @@ pub fn tell(progress: &Progress, list: Option<ListReport>) {
         "neighbor_list",
         json!({ "range": range, "skin": skin, "chosen": chosen, "steps_between_builds": every }),
     );
-    let (range, skin, by) = (digits(range), digits(skin), if chosen { ", chosen while it ran" } else { "" });
+    let (range, skin, by) = (shown(range), shown(skin), if chosen { ", chosen while it ran" } else { "" });
     progress.conclude(&format!("neighbour list: range {range}, skin {skin}{by}; built once in {every:.1} steps"));
+}
+
+/// Three digits.
+fn shown(x: f64) -> f64 {
+    format!("{x:.2e}").parse().unwrap_or(x)
 }
