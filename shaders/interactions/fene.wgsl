@@ -7,6 +7,14 @@ struct Sum { force: vec3f, energy: f32 }
 
 @group(3) @binding(0) var<uniform> params: Params;
 
+// −ln(1 − x) / x: of a small x a logarithm would have few digits. At 1/8 what is left of the series is 3e-8.
+fn spread(x: f32) -> f32 {
+    if x < 0.125 {
+        return 1.0 + x * (0.5 + x * (0.33333334 + x * (0.25 + x * (0.2 + x * (0.16666667 + x * (0.14285715 + x * 0.125))))));
+    }
+    return -log(1.0 - x) / x;
+}
+
 fn gather(me: Particle, you: Particle, r: vec3f, link: Link, sum: ptr<function, Sum>) {
     let square = dot(r, r);
     let longest = params.max_length * params.max_length;
@@ -15,10 +23,10 @@ fn gather(me: Particle, you: Particle, r: vec3f, link: Link, sum: ptr<function, 
     if link.stiffness > 0.0 {
         if left > 0.0 {
             (*sum).force += (link.stiffness / left) * r;
-            (*sum).energy -= 0.5 * link.stiffness * longest * log(left);
-        } else {
-            overlong(me, you);
+            (*sum).energy += 0.5 * link.stiffness * square * spread(square / longest);
         }
+        // What is no number is none of these: the watch finds it.
+        if left <= 0.0 { overlong(me, you); }
     }
     // Two particles at the same position have no direction between them.
     if DAMPED && square > 0.0 { (*sum).force += (link.damping * dot(velocity_of(you) - velocity_of(me), r) / square) * r; }

@@ -241,6 +241,8 @@ pub struct Properties {
     pub evaluated_last: bool,
     /// Whether it keeps rods at their lengths.
     pub keeps_rods: bool,
+    /// Whether it keeps links from being long other than by forces: no virial has what it does.
+    pub limits_links: bool,
     /// Whether it changes positions or velocities other than by accelerations, so that neither energy nor momentum is conserved.
     pub constrains: bool,
     /// Its mechanisms that change the measured energy, in a word or two each, in addition to those of its laws.

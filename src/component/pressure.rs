@@ -29,6 +29,9 @@ pub(crate) fn virial(forces: &[Box<dyn Component>], problem: &Problem) -> Result
     if !problem.network.rods.is_empty() {
         return Err(no_virial("rod", "constrains distances"));
     }
+    if let Some(force) = forces.iter().find(|force| force.properties().limits_links) {
+        return Err(no_virial(force.name(), "constrains distances"));
+    }
     let mut kernels = vec![clear_virial(problem)?];
     for (place, force) in forces.iter().enumerate() {
         let laws = force.laws();

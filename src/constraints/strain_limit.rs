@@ -96,7 +96,7 @@ fn apply(problem: &Problem, factor: f64) -> Result<Kernel, Error> {
 impl Component for StrainLimit {
     fn properties(&self) -> Properties {
         let why = "strain_limit corrects velocities for a fixed time step";
-        Properties { fixed_step: Some(why), constrains: true, ..Properties::default() }
+        Properties { fixed_step: Some(why), limits_links: true, constrains: true, ..Properties::default() }
     }
     fn stage(&self, stage: Stage, plan: &mut Plan, problem: &Problem) -> Result<(), Error> {
         let (Stage::AfterDrift { factor } | Stage::AfterAdvance { factor }) = stage else { return Ok(()) };

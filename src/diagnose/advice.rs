@@ -190,6 +190,7 @@ pub fn advice(setup: &Setup, end: Option<f64>) -> Result<Vec<Remark>, Error> {
     let laws: Vec<Law> = setup.forces.iter().flat_map(|force| force.laws()).collect();
     remarks.extend(idle(&setup.state.links, &laws));
     remarks.extend(super::bonds::overlong(setup, &laws));
+    remarks.extend(super::images::beyond(setup, &laws));
     let implicit = setup.integrator.is_implicit();
     if implicit {
         remarks.push(solves::remark(setup)?);

@@ -11,6 +11,7 @@ mod far;
 mod flow;
 mod fluid;
 mod grains;
+mod images;
 mod jumps;
 mod rounding;
 mod solves;

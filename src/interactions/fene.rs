@@ -48,8 +48,10 @@ impl Component for Fene {
             move |me, you, r, link, sum: &mut DVec4| {
                 let left = left(r);
                 if link.stiffness > 0.0 && left > 0.0 {
-                    let energy = -0.5 * link.stiffness * longest * longest * left.ln();
-                    *sum += (link.stiffness / left * r).extend(energy);
+                    let square = r.length_squared();
+                    let x = square / (longest * longest);
+                    let spread = if x > 0.0 { -(-x).ln_1p() / x } else { 1.0 };
+                    *sum += (link.stiffness / left * r).extend(0.5 * link.stiffness * square * spread);
                 }
                 let along = r.normalize_or_zero();
                 *sum += (link.damping * (you.velocity - me.velocity).dot(along) * along).extend(0.0);

@@ -35,13 +35,13 @@ const KEYS: &[Key] = &[
         "periodic",
         Kind::Flag,
         Value::Flag(true),
-        "whether chains pass through the sides: the box is then as long as its places, `size` times `spacing`, and periodic",
+        "whether chains pass through the sides: the box is then as long as its places, `size` times `spacing`, and periodic; of more than 8192 places each block of as many has its own path, which stays in it where there are several along an axis",
     ),
     Key::new(
         "moves",
         Kind::NotNegative,
         Value::Number(10.0),
-        "moves of an end of the path, per place: without any, chains lie straight in rows",
+        "moves of an end of the path, per place, 1000 at most: without any, chains lie straight in rows",
     ),
     Key::new("mass", Kind::Positive, Value::Number(1.0), "mass of each particle [mass]"),
     Key::new(
@@ -55,13 +55,19 @@ const KEYS: &[Key] = &[
         "temperature",
         Kind::NotNegative,
         Value::Number(0.0),
-        "k T: velocities are Maxwellian, without total momentum, and have exactly 2 K / (3 N − 3) = k T [energy]",
+        "k T: velocities are Maxwellian, without total momentum, and have exactly 2 K / (3 N − 3) = k T; of one layer, they lie in it, with 2 K / (2 N − 2) = k T [energy]",
     ),
     SEED,
     CENTER,
     VELOCITY,
     PARTICLE_SIZE,
 ];
+
+/// Places of one path, where the lattice can be cut into such blocks; and at most.
+const FEW_PLACES: u64 = 8192;
+const MOST_PLACES: u64 = 32_768;
+/// Moves of an end of a path, per place.
+const MOST_MOVES: f64 = 1000.0;
 
 /// The number of places, and of beads in a chain.
 fn counts(settings: &Settings) -> (f64, f64) {
@@ -119,38 +125,67 @@ fn build(settings: &Settings) -> Result<State, Error> {
         clippy::cast_sign_loss,
         reason = "factors of a product that fits 32 bits"
     )]
-    let lattice = Lattice { sides: size.to_array().map(|n| n as u32), periodic: settings.flag("periodic") };
+    let [sides, beads] = [size.to_array(), [beads; 3]].map(|all| all.map(|n| n as u32));
+    let beads = beads[0];
+    if moves > MOST_MOVES {
+        return Err(reader.error(&format!("moves is {moves}; it must be {MOST_MOVES} or below")));
+    }
+    let Some(block) = block(sides, beads) else {
+        let text = format!(
+            "{places} places are more than the {MOST_PLACES} of one path, and its sides divide into no smaller blocks that chains of {beads} beads \
+             fill: choose another `size`, such as multiples of 20"
+        );
+        return Err(reader.error(&text));
+    };
+    let periodic = [0, 1, 2].map(|axis| settings.flag("periodic") && block[axis] == sides[axis]);
+    let lattice = Lattice { sides: block, periodic };
     let mut random = Random::new(settings.whole("seed"));
-    let mut path = Path::straight(&lattice, count);
-    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "saturates")]
-    let moves = (moves * places).round() as u64;
-    for _ in 0..moves {
-        path.turn(&lattice, &mut random);
-    }
     let middle = 0.5 * (size - DVec3::ONE);
-    for site in &path.order {
-        let place = DVec3::from(lattice.place(*site).map(f64::from));
-        particles.push((place - middle) * spacing + center, DVec3::ZERO, mass, radius);
+    let volume = block.iter().product::<u32>();
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "at most a thousand of each place")]
+    let moves = (moves * f64::from(volume)).round() as u64;
+    let number = [0, 1, 2].map(|axis| sides[axis] / block[axis]);
+    for n in 0..number.iter().product::<u32>() {
+        let mut path = Path::straight(&lattice, volume as usize);
+        for _ in 0..moves {
+            path.turn(&lattice, &mut random);
+        }
+        let corner = [n % number[0], n / number[0] % number[1], n / number[0] / number[1]];
+        for site in &path.order {
+            let place = lattice.place(*site);
+            let place = DVec3::from([0, 1, 2].map(|axis| f64::from(place[axis] + block[axis] * corner[axis])));
+            particles.push((place - middle) * spacing + center, DVec3::ZERO, mass, radius);
+        }
     }
-    #[expect(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "a divisor of a number that fits 32 bits"
-    )]
-    let beads = beads as u32;
     let last = u32::try_from(count).unwrap_or(u32::MAX);
     for i in (1..last).filter(|i| i % beads != 0) {
         particles.links.springs.push(Link { ends: [i - 1, i], rest: spacing, stiffness, damping, rope: false });
     }
-    heat(&mut particles, temperature / mass, &mut random);
+    heat(&mut particles, temperature / mass, size.z == 1.0, &mut random);
     particles.velocity_mut().iter_mut().for_each(|v| *v += velocity);
     reader.finished(particles)
+}
+
+/// The sides of the blocks into which a lattice is cut: all of it where it has few places, since the moves of a path take as long as it is, or the
+/// largest of few places that chains fill. `None` where there are no blocks that one path can fill in a reasonable time.
+fn block(sides: [u32; 3], beads: u32) -> Option<[u32; 3]> {
+    let parts = sides.map(|side| (1..=side).filter(|part| side % part == 0).collect::<Vec<u32>>());
+    let places = |block: &[u32; 3]| block.iter().map(|n| u64::from(*n)).product::<u64>();
+    let all = parts[0].iter().flat_map(|a| {
+        let (b, c) = (&parts[1], &parts[2]);
+        b.iter().flat_map(move |b| c.iter().map(move |c| [*a, *b, *c]))
+    });
+    let fit: Vec<[u32; 3]> = all.filter(|block| places(block).is_multiple_of(u64::from(beads))).collect();
+    // Of blocks with as many places the one that is most like a cube.
+    let most = |block: &&[u32; 3]| (places(block), block.iter().min().copied());
+    let few = fit.iter().filter(|block| places(block) <= FEW_PLACES).max_by_key(most);
+    few.or_else(|| fit.iter().min_by_key(|block| places(block))).copied().filter(|block| places(block) <= MOST_PLACES)
 }
 
 /// A cubic lattice; site (i, j, k) has the number  i + x (j + y k).
 struct Lattice {
     sides: [u32; 3],
-    periodic: bool,
+    periodic: [bool; 3],
 }
 
 impl Lattice {
@@ -168,8 +203,8 @@ impl Lattice {
         place[axis] = match (up, place[axis]) {
             (true, n) if n + 1 < side => n + 1,
             (false, n) if n > 0 => n - 1,
-            (true, _) if self.periodic => 0,
-            (false, _) if self.periodic => side - 1,
+            (true, _) if self.periodic[axis] => 0,
+            (false, _) if self.periodic[axis] => side - 1,
             _ => return None,
         };
         Some(self.site(place))

@@ -107,21 +107,22 @@ fn build(settings: &Settings) -> Result<State, Error> {
         }
     }
     let square = if mass > 0.0 { temperature / mass } else { 0.0 };
-    heat(&mut particles, square, &mut Random::new(settings.whole("seed")));
+    heat(&mut particles, square, false, &mut Random::new(settings.whole("seed")));
     particles.velocity_mut().iter_mut().for_each(|v| *v += velocity);
     reader.finished(particles)
 }
 
-/// Normal velocities without their mean, scaled so that their squares add up to (3 N − 3) times a square.
-pub(super) fn heat(particles: &mut State, square: f64, random: &mut Random) {
+/// Normal velocities without their mean, scaled so that their squares add up to (3 N − 3) times a square, or in a plane to (2 N − 2) times it.
+pub(super) fn heat(particles: &mut State, square: f64, flat: bool, random: &mut Random) {
     let count = particles.len() as f64;
     if count < 2.0 || square <= 0.0 {
         return;
     }
-    let drawn: Vec<DVec3> = particles.position().iter().map(|_| random.normals()).collect();
+    let (axes, dimensions) = if flat { (DVec3::new(1.0, 1.0, 0.0), 2.0) } else { (DVec3::ONE, 3.0) };
+    let drawn: Vec<DVec3> = particles.position().iter().map(|_| random.normals() * axes).collect();
     let mean = drawn.iter().sum::<DVec3>() / count;
     let sum: f64 = drawn.iter().map(|v| (*v - mean).length_squared()).sum();
-    let factor = (square * (3.0 * count - 3.0) / sum).sqrt();
+    let factor = (square * (dimensions * (count - 1.0)) / sum).sqrt();
     particles.velocity_mut().iter_mut().zip(drawn).for_each(|(v, drawn)| *v = (drawn - mean) * factor);
 }
 

@@ -13,8 +13,8 @@ use crate::boundary;
 use crate::error::Error;
 use crate::integrators::{SOLVE_REPORT, kept_rates};
 use crate::kernel::{
-    ALARM, Array, Backend, Column, Columns, HOME, ID, Kernel, LARGEST_CRITERION, LIFE, LOW_WORDS, Plan, Problem, QUIET,
-    Role, STEP_CLOCK, STEP_CLOCK_WORDS, STEP_CRITERIA, TICKS, World, extent, split,
+    ALARM, Array, Backend, Column, Columns, HOME, ID, Kernel, LARGEST_CRITERION, LIFE, LOW_WORDS, Plan, QUIET, Role,
+    STEP_CLOCK, STEP_CLOCK_WORDS, STEP_CRITERIA, TICKS, World, extent, split,
 };
 use crate::life::Life;
 use crate::links::Links;
@@ -134,29 +134,23 @@ impl Print {
     }
 }
 
-/// Whether a run may go on with a list of other cells or another skin: a box that changes, or a skin that is chosen while it runs.
-pub(super) fn any_list(problem: &Problem) -> bool {
-    problem.elastic.is_some() || problem.list.is_some_and(|list| list.tuned)
-}
-
-/// A hash that two steps share only if they perform the same operations: names are ignored, and so is the capacity of a neighbour list,
-/// which depends on when it was checked. With `any_list` so do its cells and its skin: pairs in range are the same by any.
-pub(super) fn print(step: &Plan, any_list: bool) -> u64 {
+/// A hash that two steps share only if they perform the same operations: names are ignored, and so is the neighbour list, of which capacity,
+/// cells and skin depend on when it was checked: pairs in range are the same by any.
+pub(super) fn print(step: &Plan) -> u64 {
     let mut print = Print::new();
     let is_list = |kernel: &&Kernel| kernel.tables.iter().any(|(name, _)| name == visit::LIST_ALL);
-    for kernel in step.steps().filter(|kernel| !(any_list && is_list(kernel))) {
+    for kernel in step.steps().filter(|kernel| !is_list(kernel)) {
         for pass in &kernel.passes {
             print.add(pass.shader.text().as_bytes());
-            pass.constants.iter().filter(|(name, _)| *name != visit::LIST_ROOM).for_each(|(name, value)| {
+            pass.constants.iter().for_each(|(name, value)| {
                 print.add(name.as_bytes());
                 print.add(&value.to_bits().to_le_bytes());
             });
             pass.uniforms.iter().for_each(|(_, bytes)| print.add(bytes));
             pass.fields.iter().for_each(|(_, field)| print.add(field.as_bytes()));
         }
-        // Springs break: a state holds the remaining ones. A list that grows gives the same results.
-        let changes = |name: &str| [visit::LINK, visit::LIST_ALL].contains(&name);
-        for (_, words) in kernel.tables.iter().filter(|(name, _)| !changes(name)) {
+        // Springs break: a state holds the remaining ones.
+        for (_, words) in kernel.tables.iter().filter(|(name, _)| name != visit::LINK) {
             words.iter().for_each(|word| print.add(&word.to_le_bytes()));
         }
     }

@@ -134,9 +134,8 @@ impl<B: Backend> Simulation<B> {
         self.start = self.backend.compile(&plans.start)?;
         self.step = self.backend.compile_often(&plans.step)?;
         self.measure = (self.backend.compile(&plans.measure.0)?, self.backend.compile(&plans.measure.1)?);
-        let any = restart::any_list(&self.problem);
-        self.begun &= restart::print(&plans.start, any) == restart::print(&self.plans.start, any);
-        self.print = restart::print(&plans.step, any);
+        self.begun &= restart::print(&plans.start) == restart::print(&self.plans.start);
+        self.print = restart::print(&plans.step);
         self.marks = alarm::marks(&plans);
         self.plan = plans.step.to_string();
         (self.setup, self.problem, self.plans, self.fields) = (setup, Box::new(problem), Box::new(plans), fields);

@@ -407,9 +407,9 @@ typed! {
         beads: u32,
         /// Distance between neighbours on the lattice, and length of each bond \[length\].
         spacing: f64,
-        /// Whether chains pass through the sides: the box is then as long as its places, `size` times `spacing`, and periodic.
+        /// Whether chains pass through the sides: the box is then as long as its places, `size` times `spacing`, and periodic; of more than 8192 places each block of as many has its own path, which stays in it where there are several along an axis.
         periodic: bool,
-        /// Moves of an end of the path, per place: without any, chains lie straight in rows.
+        /// Moves of an end of the path, per place, 1000 at most: without any, chains lie straight in rows.
         moves: f64,
         /// Mass of each particle \[mass\].
         mass: f64,
@@ -417,7 +417,7 @@ typed! {
         stiffness: f64,
         /// Of each bond, along its axis \[mass / time\].
         damping: f64,
-        /// K T: velocities are Maxwellian, without total momentum, and have exactly 2 K / (3 N − 3) = k T \[energy\].
+        /// K T: velocities are Maxwellian, without total momentum, and have exactly 2 K / (3 N − 3) = k T; of one layer, they lie in it, with 2 K / (2 N − 2) = k T \[energy\].
         temperature: f64,
         /// Seed of the random numbers.
         seed: u64,

@@ -3,7 +3,7 @@
 mod build;
 mod reference;
 
-pub use build::{ALL, ROOM, kernel as build};
+pub use build::{ALL, kernel as build};
 pub use reference::{Memory, remembering};
 
 use super::{Law, Over};
@@ -27,9 +27,15 @@ pub const UNCOUNTED: u32 = 128;
 pub fn shared(laws: &[Law], problem: &Problem) -> Result<Option<ListShape>, Error> {
     let mut shape: Option<ListShape> = None;
     let mut reach = 0.0_f64;
+    // Laws that name no skin follow those that do.
+    let given = laws.iter().filter_map(|law| match law.over.faster(law.asks_velocities(), problem) {
+        Over::List { skin, .. } => skin,
+        _ => None,
+    });
+    let given = given.reduce(f64::max).or(problem.skin);
     for law in laws {
         let Over::List { range, skin, slots } = law.over.faster(law.asks_velocities(), problem) else { continue };
-        let (tuned, usual) = (skin.is_none(), problem.skin.unwrap_or(SKIN * range));
+        let (tuned, usual) = (skin.is_none(), given.unwrap_or(SKIN * range));
         let own = ListShape { range, skin: skin.unwrap_or(usual), tuned, words: slots, capacity: 4 };
         // Errors of a law's own list are reported for that law.
         let own = List::new(own, problem)?.shape;

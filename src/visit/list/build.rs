@@ -13,7 +13,7 @@ const FOUND: &str = "list_found";
 const GO: &str = "arguments of the list";
 pub const ALL: &str = "list_all";
 /// The constant with the capacity for neighbours of each particle; it changes no bit of what a step writes.
-pub const ROOM: &str = "ROOM";
+const ROOM: &str = "ROOM";
 /// The list and the history of its pairs before it is rebuilt, and the row of each particle.
 const BEFORE: &str = "list_before";
 const ROW_BEFORE: &str = "row_before";

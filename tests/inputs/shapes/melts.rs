@@ -113,3 +113,35 @@ fn chains_that_do_not_fit_are_refused() {
         ],
     );
 }
+
+/// A large lattice is cut into blocks, each with a path of its own, so that the time is proportional to its size.
+#[test]
+fn large_melts_are_made_of_blocks() {
+    let given = [("size", vector(48.0, 40.0, 20.0)), ("beads", number(20.0)), ("moves", number(2.0))];
+    let state = made("chains", &given, &[]);
+    assert_eq!((state.len(), state.links.springs.len()), (38_400, 38_400 - 1920));
+    let low = -0.5 * DVec3::new(47.0, 39.0, 19.0);
+    let mut all: Vec<[i64; 3]> =
+        state.position().iter().map(|x| (*x - low).round().to_array().map(|n| n as i64)).collect();
+    for spring in &state.links.springs {
+        let [a, b] = spring.ends.map(|end| all[end as usize]);
+        let through = |axis: usize| (a[axis] - b[axis]).abs().min([48, 40, 20][axis] - (a[axis] - b[axis]).abs());
+        assert_eq!((0..3).map(through).sum::<i64>(), 1, "{a:?} {b:?}");
+    }
+    all.sort_unstable();
+    all.dedup();
+    assert!(all.len() == 38_400 && all[0] == [0; 3] && all[38_399] == [47, 39, 19]);
+    // 199 and 211 are primes.
+    let primes = [("size", vector(199.0, 211.0, 1.0)), ("beads", number(211.0)), ("moves", number(1.0))];
+    let cases = [("beads", number(41_989.0), "32768 of one path"), ("moves", number(1e30), "1000 or below")];
+    assert_refused("chains", &primes, &cases);
+}
+
+/// Chains of one layer move in it, with the temperature of two dimensions.
+#[test]
+fn a_layer_stays_flat() {
+    let given = [("size", vector(20.0, 20.0, 1.0)), ("beads", number(20.0)), ("temperature", number(1.5))];
+    let state = made("chains", &given, &[]);
+    let twice: f64 = state.velocity().iter().map(|v| v.length_squared()).sum();
+    assert!(state.velocity().iter().all(|v| v.z == 0.0) && (twice / 798.0 - 1.5).abs() < 1e-9, "{twice}");
+}

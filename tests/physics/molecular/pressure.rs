@@ -153,6 +153,9 @@ fn forces_without_a_virial_are_refused() {
     // Forces from one side push the box as a whole.
     let said = why(force("flee", &[]));
     assert!(said.contains("not equal and opposite"), "{said}");
+    // What keeps springs short has no virial either.
+    let said = why(force("strain_limit", &[]));
+    assert!(said.contains("`strain_limit` constrains distances"), "{said}");
     // What acts on single particles is no part of the pressure of pairs.
     let drag = force("drag", &[]);
     assert_eq!(on_gpu(&setup(spread(100, 1.1), vec![drag], bounds, 1e-3)).expect("none"), [0.0; 6]);
