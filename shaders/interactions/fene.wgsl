@@ -2,7 +2,7 @@
 // with r from me to you (Kremer & Grest, J. Chem. Phys. 92, 5057, 1990). At R the energy is infinite; beyond it there is none, and the alarm is raised.
 override DAMPED: bool = true; // whether any bond is
 
-struct Params { max_length: f32 }
+struct Params { unused_word: u32, max_length: f32 }
 struct Sum { force: vec3f, energy: f32 }
 
 @group(3) @binding(0) var<uniform> params: Params;

@@ -6,11 +6,13 @@ use crate::kernel::{Backend, Kernel, ListShape};
 use crate::neighbors::LIST;
 use crate::visit;
 
-/// The time of a build, in evaluations of a law over all pairs within range and skin: on lavapipe some 7 for a Lennard-Jones liquid of 32 000
-/// atoms, more for few atoms.
-const BUILD: f64 = 8.0;
-/// Steps before the first choice; each further one has seen twice as many.
+/// The time of a build, in evaluations of a law over all pairs within range and skin: on lavapipe some 8 for a Lennard-Jones liquid of 32 000
+/// atoms, and 16 for 2000.
+const BUILD: f64 = 12.0;
+/// Steps before a choice, and before it is judged; each further one has seen twice as many.
 const FIRST: u64 = 256;
+/// How much longer another choice waits after one that was wrong.
+const PATIENCE: u64 = 8;
 /// A skin is exchanged where another should take less than this part of the time: new kernels must be compiled for it.
 const WORTH: f64 = 0.93;
 /// The smallest skin, as a part of the range.
@@ -21,8 +23,9 @@ const SMALLEST: f64 = 0.02;
 pub(super) struct Watched {
     /// The step since which.
     since: u64,
-    /// Steps before the next choice.
+    /// Steps before the next choice, and before that behind a wrong one.
     wait: u64,
+    patience: u64,
     /// Steps between two builds in the mean, as last seen; 0 where that is not known.
     every: f64,
     /// The skin before, and the time that it took.
@@ -32,7 +35,7 @@ pub(super) struct Watched {
 impl Watched {
     /// Nothing yet.
     pub fn from(since: u64) -> Self {
-        Self { since, wait: FIRST, every: 0.0, before: None }
+        Self { since, wait: FIRST, patience: FIRST, every: 0.0, before: None }
     }
     /// The same for buffers that are made anew at this step.
     pub fn after(self, since: u64) -> Self {
@@ -71,7 +74,7 @@ impl<B: Backend> Simulation<B> {
         if !shape.tuned || self.problem.elastic.is_some() || steps < self.skin.wait {
             return None;
         }
-        self.skin.wait = 2 * steps;
+        self.skin.wait = steps.saturating_mul(2);
         let is_list = |kernel: &&Kernel| kernel.tables.iter().any(|(name, _)| name == visit::LIST_ALL);
         let laws = self.plans.step.steps().filter(|kernel| !is_list(kernel) && kernel.names(LIST)).count();
         let seen = Seen {
@@ -80,12 +83,13 @@ impl<B: Backend> Simulation<B> {
         };
         let now = seen.time(shape, shape.skin);
         // What it was chosen for may not have come: what only trembles builds no list with a large skin, and many with a small one.
-        if let Some((skin, _)) = self.skin.before.filter(|(_, time)| *time < now) {
-            self.skin = Watched { wait: 8 * steps, before: None, ..self.skin };
+        if let Some((skin, _)) = self.skin.before.take().filter(|(_, time)| *time < now) {
+            self.skin.patience = self.skin.patience.saturating_mul(PATIENCE);
+            self.skin.wait = self.skin.patience;
             return Some(skin);
         }
         let chosen = seen.best(shape)?;
-        self.skin.before = Some((shape.skin, now));
+        (self.skin.before, self.skin.wait) = (Some((shape.skin, now)), FIRST);
         Some(chosen)
     }
 }
