@@ -161,7 +161,7 @@ fn build(settings: &Settings) -> Result<State, Error> {
     for i in (1..last).filter(|i| i % beads != 0) {
         particles.links.springs.push(Link { ends: [i - 1, i], rest: spacing, stiffness, damping, rope: false });
     }
-    heat(&mut particles, temperature / mass, size.z == 1.0, &mut random);
+    heat(&mut particles, temperature / mass, sides[2] == 1, &mut random);
     particles.velocity_mut().iter_mut().for_each(|v| *v += velocity);
     reader.finished(particles)
 }

@@ -39,7 +39,7 @@ pub async fn stability(args: &StabilityArgs) -> Result<(), Failure> {
     let mut courses = Vec::new();
     for entry in INTEGRATORS {
         let course = match &engine {
-            Engine::Gpu(found) => course(entry, args, || Gpu::new(&found.device, &found.queue, 1)).await?,
+            Engine::Gpu(found) => Box::pin(course(entry, args, || Gpu::new(&found.device, &found.queue, 1))).await?,
             Engine::Cpu(_) => course(entry, args, || Cpu::new(1)).await?,
         };
         courses.push(course);
