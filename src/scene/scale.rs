@@ -69,7 +69,7 @@ fn refuse(root: &Table) -> Result<(), Error> {
         return refused("the scene has grains, and its walls and its time step fit their radius");
     }
     if tables(root, "force").any(|table| table.contains_key("pairs")) {
-        return refused("the scene has coefficients of pairs of species (`pairs`), as molecules have");
+        return refused("the scene has atoms, and its box and the ranges of their forces fit their number");
     }
     Ok(())
 }

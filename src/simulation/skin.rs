@@ -41,6 +41,20 @@ impl Watched {
     pub fn after(self, since: u64) -> Self {
         Self { since, ..self }
     }
+    /// Another skin after so many steps with this one, and how long to wait for the next choice.
+    fn choose(&mut self, steps: u64, seen: Seen, shape: ListShape) -> Option<f64> {
+        self.wait = steps.saturating_mul(2);
+        let now = seen.time(shape, shape.skin);
+        // What it was chosen for may not have come: what only trembles builds no list with a large skin, and many with a small one.
+        if let Some((skin, _)) = self.before.take().filter(|(_, time)| *time < now) {
+            self.patience = self.patience.saturating_mul(PATIENCE);
+            self.wait = self.patience;
+            return Some(skin);
+        }
+        let chosen = seen.best(shape)?;
+        (self.before, self.wait) = (Some((shape.skin, now)), FIRST);
+        Some(chosen)
+    }
 }
 
 /// The list of a simulation, as a report names it.
@@ -74,23 +88,13 @@ impl<B: Backend> Simulation<B> {
         if !shape.tuned || self.problem.elastic.is_some() || steps < self.skin.wait {
             return None;
         }
-        self.skin.wait = steps.saturating_mul(2);
         let is_list = |kernel: &&Kernel| kernel.tables.iter().any(|(name, _)| name == visit::LIST_ALL);
         let laws = self.plans.step.steps().filter(|kernel| !is_list(kernel) && kernel.names(LIST)).count();
         let seen = Seen {
             evaluations: self.skin.every * laws.max(1) as f64,
             dimensions: f64::from(self.problem.bounds.dimensions),
         };
-        let now = seen.time(shape, shape.skin);
-        // What it was chosen for may not have come: what only trembles builds no list with a large skin, and many with a small one.
-        if let Some((skin, _)) = self.skin.before.take().filter(|(_, time)| *time < now) {
-            self.skin.patience = self.skin.patience.saturating_mul(PATIENCE);
-            self.skin.wait = self.skin.patience;
-            return Some(skin);
-        }
-        let chosen = seen.best(shape)?;
-        (self.skin.before, self.skin.wait) = (Some((shape.skin, now)), FIRST);
-        Some(chosen)
+        self.skin.choose(steps, seen, shape)
     }
 }
 
@@ -133,6 +137,26 @@ mod tests {
         Seen { evaluations, dimensions }.best(shape(skin))
     }
 
+    #[test]
+    fn a_skin_that_is_worse_than_the_one_before_goes() {
+        let seen = |evaluations| Seen { evaluations, dimensions: 3.0 };
+        let mut watched = Watched::from(0);
+        // Nothing has moved so far; then each list lasts for eight steps.
+        let small = watched.choose(256, seen(256.0), shape(0.5)).expect("a smaller one");
+        assert!(small < 0.25 && watched.wait == FIRST);
+        assert_eq!(watched.choose(FIRST, seen(8.0), shape(small)), Some(0.5));
+        assert_eq!(watched.wait, PATIENCE * FIRST);
+        // Another try is judged soon, too, and the next one waits longer.
+        assert_eq!(watched.choose(watched.wait, seen(2048.0), shape(0.5)).map(|skin| skin < small), Some(true));
+        assert_eq!(watched.wait, FIRST);
+        assert_eq!(watched.choose(FIRST, seen(2.0), shape(0.5 * small)), Some(0.5));
+        assert_eq!(watched.wait, PATIENCE * PATIENCE * FIRST);
+        // One that keeps its promise stays.
+        let mut watched = Watched::from(0);
+        let small = watched.choose(256, seen(256.0), shape(0.5)).expect("a smaller one");
+        assert_eq!(watched.choose(FIRST, seen(256.0 * small / 0.5), shape(small)), None);
+        assert_eq!(watched.wait, 2 * FIRST);
+    }
     #[test]
     fn it_takes_the_least_time() {
         for dimensions in [2.0, 3.0] {
