@@ -10,7 +10,9 @@ struct Sum { force: vec3f, energy: f32 }
 // −ln(1 − x) / x: of a small x a logarithm would have few digits. At 1/8 what is left of the series is 3e-8.
 fn spread(x: f32) -> f32 {
     if x < 0.125 {
-        return 1.0 + x * (0.5 + x * (0.33333334 + x * (0.25 + x * (0.2 + x * (0.16666667 + x * (0.14285715 + x * 0.125))))));
+        let last = x * (0.16666667 + x * (0.14285715 + x * 0.125));
+        let fifth = 0.2 + last;
+        return 1.0 + x * (0.5 + x * (0.33333334 + x * (0.25 + x * fifth)));
     }
     return -log(1.0 - x) / x;
 }

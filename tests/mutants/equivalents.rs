@@ -10,6 +10,7 @@ const LAST_DIGITS: &str = "a part in a million, where `tests/physics/pins` holds
 const SINE: &str = "let sine_end";
 const STORES_NOTHING: &str = "lanes behind the last particle store nothing of theirs";
 const EDGE: &str = "no particle lies exactly at the edge";
+const SERIES: &str = "the last terms of a series are a millionth, and the logarithm is as exact there";
 const AT_THE_SIDE: &str = "a particle at the side stays at the side either way";
 const SOON: &str = "it says when to stop, and the last of Newton's steps doubles digits that are enough";
 const LOST: &str = "what is lost is lost either way";
@@ -104,6 +105,18 @@ pub const EQUIVALENT: &[Equivalent] = &[
     same("strain_limit.wgsl", "let strained = ", ">", ">=", "at the limit no particle moves"),
     same("spring.wgsl", "let taut = ", ">", ">=", "at the edge both are nothing"),
     same("spring.wgsl", "if link.rest < 0.0 && distance", "<=", "<", EDGE),
+    same("fene.wgsl", "if x < 0.125", "<", "<=", EDGE),
+    same("fene.wgsl", "if x < 0.125", "0.125", "0.1875", SERIES),
+    same("fene.wgsl", "let last = ", "+", "-", SERIES),
+    same("fene.wgsl", "let last = ", "*", "/", SERIES).sometimes(),
+    same("fene.wgsl", "let last = ", "0.16666667", "0.25000000499999997", SERIES),
+    same("fene.wgsl", "let last = ", "0.14285715", "0.21428572499999998", SERIES),
+    same("fene.wgsl", "let last = ", "0.125", "0.1875", SERIES),
+    same("fene.wgsl", "let fifth = ", "+", "-", SERIES),
+    same("fene.wgsl", "if left > 0.0 {", ">", ">=", EDGE),
+    same("fene.wgsl", "if left <= 0.0 {", "<=", "<", EDGE),
+    same("fene.wgsl", "let u = ", "0.0", "1.0", "a bond without a length has no direction either way").sometimes(),
+    same("fene.wgsl", "let u = ", ">", ">=", "no bond is without a length"),
     same("joint.wgsl", "let ratio = ", "1e-6", "1.5e-6", "a joint that is folded right back has no side to turn to"),
     same("joint.wgsl", "let ratio = ", "<", "<=", EDGE),
     same("joint.wgsl", "let ratio = ", "1e-3", "0.0015", "of so small angles both are the same number"),

@@ -115,7 +115,21 @@ pub fn overlong(device: &Device, stages: &mut Vec<Stage>) {
     let gap = lengths.windows(2).max_by(|a, b| (a[1] - a[0]).total_cmp(&(b[1] - b[0]))).expect("lengths");
     let longest = f64::from((0.5 * (gap[0] + gap[1])) as f32);
     let problem = Problem::new(u32::try_from(FEW).expect("few"), Machine::HOST).tied(&links, &[]);
-    let law = force("fene", &[("max_length", Value::Number(longest))]).laws().swap_remove(0);
+    let of = |longest: f64| force("fene", &[("max_length", Value::Number(longest))]).laws().swap_remove(0);
+    let quiet = |longest: f64, stages: &mut Vec<Stage>| {
+        let mut simulation = resting(device, Machine::HOST, Bounds::default());
+        put(&mut simulation, ALARM, &QUIET);
+        let kernel = of(longest).kernel(&problem).expect("a kernel");
+        stages.push(stage("none is overlong", simulation, kernel));
+    };
+    // Longer than all bonds, and not than some links without stiffness.
+    let most = |stiff: bool| {
+        let some = links.springs.iter().filter(|link| (link.stiffness > 0.0) == stiff);
+        some.map(length).fold(0.0, f64::max)
+    };
+    assert!(1.1 * most(true) < most(false), "{} and {}", most(true), most(false));
+    quiet(f64::from((0.5 * (most(true) + most(false))) as f32), stages);
+    let law = of(longest);
     for [step, particle] in [[u32::MAX; 2], [1, 3], [9, 3], [9, 490], [17, 490]] {
         let mut simulation = resting(device, Machine::HOST, Bounds::default());
         let clock = pollster::block_on(simulation.backend().world()).expect("a clock");
