@@ -20,7 +20,7 @@ pub const KEYS: &[Key] = &[
         "over",
         Kind::Choice(&["links"]),
         Value::Text(Cow::Borrowed("links")),
-        "which pairs are evaluated: those connected by a spring or a rope, whose stiffness and damping count, and whose rest length does not",
+        "which pairs are evaluated: those connected by a spring or a rope: its stiffness and damping count, its rest length does not",
     ),
 ];
 

@@ -42,7 +42,7 @@ components! {
     navigate: Navigate, "pedestrians take up their desired speed along the shortest way to an exit of the plan (Helbing & Molnár 1995; Rouy & Tourin 1992)";
     social_wall: SocialWall, "walls of the plan that pedestrians keep away from, press and rub on, and never pass (Helbing, Farkas & Vicsek 2000)";
     spring: Spring, "springs and ropes, damped along their axis (Hooke 1678)";
-    fene: Fene, "bonds of polymers, whose energy is infinite at their maximum length (Kremer & Grest 1990)";
+    fene: Fene, "bonds of polymers, with an energy that is infinite at their maximum length (Kremer & Grest 1990)";
     joint: Joint, "joints that resist bending: elastic rods, hair (Euler 1744)";
     fluid: Fluid, "a fluid by smoothed particle hydrodynamics, weakly compressible (Monaghan 1994); fixed particles are its walls";
     air: Air, "drag and lift on every triangle of a cloth, in gusts (Ling, Damodaran & Gay 1996)";

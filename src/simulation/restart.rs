@@ -13,7 +13,7 @@ use crate::boundary;
 use crate::error::Error;
 use crate::integrators::{SOLVE_REPORT, kept_rates};
 use crate::kernel::{
-    ALARM, Array, Backend, Column, Columns, HOME, ID, Kernel, LARGEST_CRITERION, LIFE, LOW_WORDS, Plan, QUIET, Role,
+    ALARM, Array, Backend, Column, Columns, HOME, ID, LARGEST_CRITERION, LIFE, LOW_WORDS, Plan, QUIET, Role,
     STEP_CLOCK, STEP_CLOCK_WORDS, STEP_CRITERIA, TICKS, World, extent, split,
 };
 use crate::life::Life;
@@ -138,8 +138,7 @@ impl Print {
 /// cells and skin depend on when it was checked: pairs in range are the same by any.
 pub(super) fn print(step: &Plan) -> u64 {
     let mut print = Print::new();
-    let is_list = |kernel: &&Kernel| kernel.tables.iter().any(|(name, _)| name == visit::LIST_ALL);
-    for kernel in step.steps().filter(|kernel| !is_list(kernel)) {
+    for kernel in step.steps().filter(|kernel| !visit::is_list(kernel)) {
         for pass in &kernel.passes {
             print.add(pass.shader.text().as_bytes());
             pass.constants.iter().for_each(|(name, value)| {

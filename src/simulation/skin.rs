@@ -2,7 +2,7 @@
 //! same by any skin, and so are the bits of all results.
 
 use super::Simulation;
-use crate::kernel::{Backend, Kernel, ListShape};
+use crate::kernel::{Backend, ListShape};
 use crate::neighbors::LIST;
 use crate::visit;
 
@@ -88,8 +88,7 @@ impl<B: Backend> Simulation<B> {
         if !shape.tuned || self.problem.elastic.is_some() || steps < self.skin.wait {
             return None;
         }
-        let is_list = |kernel: &&Kernel| kernel.tables.iter().any(|(name, _)| name == visit::LIST_ALL);
-        let laws = self.plans.step.steps().filter(|kernel| !is_list(kernel) && kernel.names(LIST)).count();
+        let laws = self.plans.step.steps().filter(|kernel| !visit::is_list(kernel) && kernel.names(LIST)).count();
         let seen = Seen {
             evaluations: self.skin.every * laws.max(1) as f64,
             dimensions: f64::from(self.problem.bounds.dimensions),

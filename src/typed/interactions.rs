@@ -517,11 +517,11 @@ typed! {
         /// Which pairs are evaluated: those connected by a spring or a rope, which has its own length, stiffness and damping.
         over: Cow<'static, str>,
     }
-    /// Bonds of polymers, whose energy is infinite at their maximum length (Kremer & Grest 1990).
+    /// Bonds of polymers, with an energy that is infinite at their maximum length (Kremer & Grest 1990).
     Fene "fene" fene() {
         /// R₀, the length at which the energy of a bond is infinite: one that is found longer ends the run \[length\].
         max_length: f64,
-        /// Which pairs are evaluated: those connected by a spring or a rope, whose stiffness and damping count, and whose rest length does not.
+        /// Which pairs are evaluated: those connected by a spring or a rope: its stiffness and damping count, its rest length does not.
         over: Cow<'static, str>,
     }
     /// Joints that resist bending: elastic rods, hair (Euler 1744).

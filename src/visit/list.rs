@@ -3,7 +3,7 @@
 mod build;
 mod reference;
 
-pub use build::{ALL, kernel as build};
+pub use build::{is_list, kernel as build};
 pub use reference::{Memory, remembering};
 
 use super::{Law, Over};

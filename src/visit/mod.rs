@@ -30,7 +30,7 @@ pub(crate) use alone::looks_at_own;
 pub use jacobian::{Jacobian, ROW, ROWS};
 pub use law::{Distant, Law, numbered};
 pub use links::{LINK, LINK_START, bind};
-pub use list::{ALL as LIST_ALL, Memory, UNCOUNTED, build as list_kernel, shared as shared_list};
+pub use list::{Memory, UNCOUNTED, build as list_kernel, is_list, shared as shared_list};
 pub use near::Candidate;
 pub use over::{Over, few_neighbors};
 pub use pair_table::{MOST_SPECIES, PAIR_TABLE, PairRow, PairTable};

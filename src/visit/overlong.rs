@@ -12,7 +12,7 @@ use crate::kernel::{ALARM, Host, Reference};
 const WORDS: usize = 12;
 
 impl Law {
-    /// The same law of links whose stiff ones are shorter than `longest`. Its WGSL calls `fn overlong(me, you)` for others, which exert no
+    /// The same law, of links of which the stiff ones are shorter than `longest`. Its WGSL calls `fn overlong(me, you)` for others, which exert no
     /// force.
     #[must_use]
     pub fn shorter_than(mut self, longest: f64) -> Self {

@@ -11,7 +11,7 @@ use crate::visit::near::{self, Candidate};
 const FOUND: &str = "list_found";
 /// Indirect arguments of the dispatches that build it: the present ones, and those of a rebuild.
 const GO: &str = "arguments of the list";
-pub const ALL: &str = "list_all";
+const ALL: &str = "list_all";
 /// The constant with the capacity for neighbours of each particle; it changes no bit of what a step writes.
 const ROOM: &str = "ROOM";
 /// The list and the history of its pairs before it is rebuilt, and the row of each particle.
@@ -24,6 +24,12 @@ const EACH: u32 = 3;
 const SORTED: u32 = 16;
 /// The approximate number of checks for each rebuild.
 const SELDOM: u64 = 8;
+
+/// Whether a kernel keeps a list up to date.
+#[must_use]
+pub fn is_list(kernel: &Kernel) -> bool {
+    kernel.tables.iter().any(|(name, _)| name == ALL)
+}
 
 /// The kernel that keeps the list up to date.
 ///

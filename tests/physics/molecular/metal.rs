@@ -59,7 +59,7 @@ fn copper(mut state: State, edge: f64, over: Over, others: Vec<Box<dyn Component
     setup(state, forces, periodic(DVec3::ZERO, DVec3::splat(f64::from(CELLS) * edge)), dt)
 }
 
-/// A crystal whose atoms are moved at random, to places and in a box that single precision holds exactly.
+/// A crystal with atoms that are moved at random, to places and in a box that single precision holds exactly.
 fn disordered(seed: u64) -> (State, f64) {
     let edge = 3.609_375;
     let mut random = crate::support::Random::new(seed);

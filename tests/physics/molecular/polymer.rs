@@ -49,7 +49,7 @@ fn a_bond_has_the_energy_and_the_force_of_kremer_and_grest() {
     assert!((energy - 18.2787).abs() < 1e-4, "{energy}");
 }
 
-/// A chain of which one bond is too long, and one whose ends fly apart in steps that are far too long.
+/// A chain of which one bond is too long, and one with ends that fly apart in steps that are far too long.
 #[test]
 fn a_bond_that_is_too_long_ends_the_run_and_is_named() {
     let start = |lengths: [f64; 4], speed: f64| {
