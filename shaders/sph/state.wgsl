@@ -1,5 +1,4 @@
-// Tait's equation of state, in the order of the cell list:  p = B ((ρ/ρ₀)^γ − 1), and the energy ∫ p / ρ² dρ (Monaghan 1994).
-@group(2) @binding(5) var<storage, read> sorted_id: array<u32>;
+// Tait's equation of state:  p = B ((ρ/ρ₀)^γ − 1), and the energy ∫ p / ρ² dρ (Monaghan 1994).
 @group(3) @binding(2) var<storage, read> density: array<f32>;
 @group(3) @binding(3) var<storage, read_write> flow: array<vec4f>;
 
@@ -8,8 +7,8 @@ const WORKGROUP: u32 = 64u;
 @compute @workgroup_size(WORKGROUP)
 fn state(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u, @builtin(local_invocation_index) lane: u32) {
     let k = folded(group, groups) * WORKGROUP + lane;
-    if k >= present() { return; }
-    let id = sorted_id[k];
+    if k >= occupied() { return; }
+    let id = occupant(k);
     if is_held(id) {
         flow[k] = vec4f();
         return;

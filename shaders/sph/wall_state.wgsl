@@ -1,4 +1,4 @@
-// The pressure of walls, beside that of the fluid, in the order of the cell list.
+// The pressure of walls, beside that of the fluid, in the order of its states.
 @group(3) @binding(2) var<storage, read> wall_pressure: array<f32>;
 @group(3) @binding(3) var<storage, read_write> flow: array<vec4f>;
 

@@ -7,16 +7,6 @@ override FIRST_ROW: u32 = 0u;
 const WORKGROUP: u32 = 64u;
 const NONE: u32 = 0xffffffffu;
 
-// `pair` is the index of the pair's history.
-struct Particle { index: u32, position: vec3f, mass: f32, pair: u32 }
-
-fn neighbor(id: u32, pair: u32) -> Particle {
-    let p = position[id];
-    return Particle(id, p.xyz, p.w, pair);
-}
-
-fn velocity_of(particle: Particle) -> vec3f { return velocity[particle.index].xyz; }
-
 fn consider(k: u32, id: u32, n: u32, end: u32, me: Particle, sum: ptr<function, Sum>) {
     let you = neighbor(id, pair_at(k, n));
     let r = shortest(you.position - me.position);

@@ -34,6 +34,9 @@ pub(crate) fn virial(forces: &[Box<dyn Component>], problem: &Problem) -> Result
     }
     let mut kernels = vec![clear_virial(problem)?];
     for (place, force) in forces.iter().enumerate() {
+        if force.properties().makes_fluid {
+            return Err(no_virial(force.name(), "has more than the forces of pairs"));
+        }
         let laws = force.laws();
         let mut evaluated = Plan::default();
         force.stage(Stage::Evaluate { earlier: 0 }, &mut evaluated, problem)?;

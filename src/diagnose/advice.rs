@@ -96,6 +96,11 @@ fn idle(links: &Links, laws: &[Law]) -> Vec<Remark> {
     .collect()
 }
 
+/// The laws of a setup but those of a method, for which its component answers by properties.
+fn of_pairs(setup: &Setup) -> impl Iterator<Item = Law> {
+    setup.forces.iter().flat_map(|force| force.laws()).filter(|law| law.outlined.is_none())
+}
+
 /// The quantities that all forces and the sides of the box conserve. A mirror changes momentum and conserves energy; in a periodic box
 /// momentum is conserved, and the angular momentum is meaningless.
 ///
@@ -112,7 +117,7 @@ pub fn conserved(setup: &Setup) -> Result<Conserved, Error> {
         turners: Vec::new(),
     };
     let problem = setup.problem(MACHINE)?;
-    for law in setup.forces.iter().flat_map(|force| force.laws()) {
+    for law in of_pairs(setup) {
         conserved.momentum &= law.reciprocal;
         conserved.angular_momentum &= law.reciprocal;
         // Forces that are not equal and opposite conserve nothing.
@@ -187,7 +192,7 @@ pub fn advice(setup: &Setup, end: Option<f64>) -> Result<Vec<Remark>, Error> {
     remarks.extend(rounding::crossings(setup));
     remarks.extend(jumps::remarks(setup, end));
     let problem = setup.problem(MACHINE)?;
-    let laws: Vec<Law> = setup.forces.iter().flat_map(|force| force.laws()).collect();
+    let laws: Vec<Law> = of_pairs(setup).collect();
     remarks.extend(idle(&setup.state.links, &laws));
     remarks.extend(super::bonds::overlong(setup, &laws));
     remarks.extend(super::images::beyond(setup, &laws));

@@ -15,7 +15,7 @@ pub fn remark(setup: &Setup) -> Result<Remark, Error> {
     let integrator = setup.integrator.name();
     let (mut solved, mut limiting, mut constant) = (Vec::new(), Vec::new(), Vec::new());
     for (force, is_solved) in setup.forces.iter().zip(implicit(&setup.forces)) {
-        for law in force.laws() {
+        for law in force.laws().into_iter().filter(|law| law.outlined.is_none()) {
             let name = format!("`{}`", law.name);
             match is_solved {
                 true => solved.push(name),

@@ -1,13 +1,14 @@
 //! A fluid, weakly compressible.
 
 use std::borrow::Cow;
+use std::sync::Arc;
 
 use glam::DVec3;
 
-use super::{Component, Problem, Properties, Resolved, Stage};
+use super::{Component, Law, Over, Problem, Properties, Resolved, SKIN, Stage};
 use crate::error::Error;
 use crate::sph::{
-    self, Asked, COURANT, Continuity, Continuum, Dfsph, Form, Friction, Limits, Medium, Rates, Smoothing, Tension, WallMass, Walls,
+    self, Asked, Boxed, COURANT, Continuity, Continuum, Dfsph, Form, Friction, Limits, Medium, Rates, Smoothing, Tension, WallMass, Walls,
 };
 use crate::kernel::{Bounds, Column, Plan};
 use crate::settings::{Key, Kind, Preset, Settings, Value};
@@ -35,6 +36,8 @@ pub const KEYS: &[Key] = &[
     Key::new("weight", Kind::Vector, Value::Vector(DVec3::ZERO), "the gravitational acceleration that another force applies, so that density diffusion (Fourtakas et al. 2019) and walls preserve hydrostatic equilibrium [length / time²]"),
     Key::new("tension", Kind::NotNegative, Value::Number(0.0), "the surface tension coefficient γ (Akinci, Akinci & Teschner 2013), which is not the physical σ: with density 1000, in three dimensions, σ is about 25 000, 55 000 or 75 000 γ spacing² where support is 2, 2.5 or 3"),
     Key::new("adhesion", Kind::NotNegative, Value::Number(0.0), "the adhesion coefficient β of walls (Akinci, Akinci & Teschner 2013)"),
+    Key::new("over", Kind::Choice(&["near", "list", "auto"]), Value::Text(Cow::Borrowed("near")), "wcsph: how neighbours are found: by a cell list, by a neighbour list that is reused over steps, or by the faster of both"),
+    SKIN,
     Key::new("tolerance", Kind::Positive, Value::Number(1e-4), "dfsph: the tolerance of the mean density error [relative to the density]"),
     Key::new("divergence_tolerance", Kind::Positive, Value::Number(1e-3), "dfsph: the tolerance of the mean density change by divergence in a step [relative to the density]"),
     Key::new("min_iterations", Kind::Count, Value::Number(2.0), "dfsph: the minimum number of iterations of a solve"),
@@ -216,6 +219,11 @@ impl Component for Fluid {
     fn check(&self, bounds: &Bounds) -> Result<(), Error> {
         let medium = self.medium(bounds)?;
         self.continuity()?;
+        if self.solves() && self.0.text("over") == "list" {
+            return Err(Error::Setting { key: "over", why:
+                "a fluid with solver = \"dfsph\" stores its neighbours in each step, and has no list that is kept over several: leave out over = \"list\", or \
+                 say solver = \"wcsph\"".to_owned() });
+        }
         medium.fits(bounds)
     }
     fn resolved(&self, problem: &Problem) -> Result<Resolved, Error> {
@@ -225,7 +233,7 @@ impl Component for Fluid {
         let weight = weighs.then(|| self.0.vector("weight"));
         let fluid = Continuum { medium, walls: self.wall_mass(), summed: continuity.is_none(), weight };
         Ok(Resolved {
-            cell_lists: vec![(medium.grid(problem)?, true)],
+            cell_lists: medium.grid_over(self.over().faster(false, problem), problem)?.into_iter().map(|grid| (grid, true)).collect(),
             fluid: Some(fluid),
             rates: Some(Rates::of(&medium, self.friction(), self.0.number("xsph"))),
             viscous_steps: sph::viscous_steps(&medium, self.friction(), problem),
@@ -236,64 +244,90 @@ impl Component for Fluid {
         match stage {
             Stage::Start => self.begin(plan, problem),
             Stage::Evaluate { .. } => self.evaluate(plan, problem),
-            Stage::Carry { .. } => self.carry(plan, problem),
-            Stage::StepLimit => self.limit_steps(plan, problem),
+            Stage::Carry { .. } => self.rate().map_or(Ok(()), |law| law.kernel(problem).map(|kernel| plan.add(kernel))),
+            Stage::StepLimit => {
+                let sound = (!self.solves()).then(|| self.0.number("sound_speed"));
+                sph::limits(&self.boxed(), self.over(), Limits { sound, alpha: self.friction().alpha }, plan, problem)
+            }
             Stage::EndOfStep if self.solves() => self.dfsph(self.medium(&problem.bounds)?, problem)?.conclude(plan),
             Stage::AfterKick | Stage::AfterDrift { .. } | Stage::AfterAdvance { .. } | Stage::StartOfStep | Stage::Pressure | Stage::EndOfStep => Ok(()),
         }
     }
+    fn laws(&self) -> Vec<Law> {
+        [self.density(), self.rate(), self.wall_pressure()].into_iter().flatten().chain(self.pushes()).collect()
+    }
 }
 
 impl Fluid {
+    /// The fluid in a box that is not known yet.
+    fn boxed(&self) -> Boxed {
+        let own = self.clone();
+        Arc::new(move |bounds| own.medium(bounds))
+    }
+    /// How its neighbours are found.
+    fn over(&self) -> Over {
+        let range = self.0.number("support") * self.0.number("spacing");
+        let skin = Some(self.0.number("skin")).filter(|skin| *skin > 0.0);
+        match self.0.text("over") {
+            "list" => Over::List { range, skin, slots: 0 },
+            "auto" if !self.solves() => Over::Auto { range, skin },
+            _ => Over::Near { range, of: None },
+        }
+    }
+    /// Whether its laws need states: where pressure is solved for, there is neither sound nor a pressure by an equation of state, but
+    /// friction and tension remain.
+    fn has_states(&self) -> bool {
+        !self.solves() || self.friction().viscosity > 0.0 || self.0.number("xsph") > 0.0 || self.tension().is_some()
+    }
+    fn density(&self) -> Option<Law> {
+        let summed = matches!(self.continuity(), Ok(None));
+        (summed && self.has_states()).then(|| sph::density(&self.boxed(), self.over()))
+    }
+    /// The rate of a density that is carried along with positions.
+    fn rate(&self) -> Option<Law> {
+        let continuity = self.continuity().ok().flatten()?;
+        Some(sph::rate(&self.boxed(), self.over(), continuity))
+    }
+    fn wall_pressure(&self) -> Option<Law> {
+        let Walls::Extrapolate { weight } = self.walls() else { return None };
+        Some(sph::wall_pressure(&self.boxed(), self.over(), weight))
+    }
+    /// The laws that accelerate it, and what they need of its surface.
+    fn pushes(&self) -> Vec<Law> {
+        let (of, over, friction, xsph) = (self.boxed(), self.over(), self.friction(), self.0.number("xsph"));
+        let pushed = !self.solves() || friction.viscosity > 0.0;
+        let mut laws = Vec::new();
+        laws.extend(pushed.then(|| sph::pressure(&of, over, friction, self.walls())));
+        laws.extend((xsph > 0.0).then(|| sph::xsph(&of, over, xsph)));
+        laws.extend(self.tension().into_iter().flat_map(|tension| sph::tension(&of, over, tension)));
+        laws
+    }
     fn begin(&self, plan: &mut Plan, problem: &Problem) -> Result<(), Error> {
         let medium = self.medium(&problem.bounds)?;
         if !problem.held.is_empty() {
             plan.add(medium.grid(problem)?.kernel(problem, true)?);
-            plan.add(sph::walls(&medium, self.wall_mass(), problem)?);
+            plan.add(sph::walls(&self.boxed(), self.wall_mass(), problem)?);
         }
         Ok(())
-    }
-    fn limit_steps(&self, plan: &mut Plan, problem: &Problem) -> Result<(), Error> {
-        let medium = self.medium(&problem.bounds)?;
-        let limits = Limits { sound: (!self.solves()).then_some(medium.sound), alpha: self.friction().alpha };
-        sph::limits(&medium, limits, plan, problem)
     }
     fn evaluate(&self, plan: &mut Plan, problem: &Problem) -> Result<(), Error> {
-        let medium = self.medium(&problem.bounds)?;
-        let (friction, solves) = (self.friction(), self.solves());
-        let (xsph, tension) = (self.0.number("xsph"), self.tension());
-        // Where pressure is solved for, there is neither sound nor a pressure by an equation of state: friction and tension remain.
-        if !solves || friction.viscosity > 0.0 || xsph > 0.0 || tension.is_some() {
-            if self.continuity()?.is_none() {
-                plan.add(sph::density(&medium, problem)?.kernel(problem)?);
-            }
-            plan.add(sph::state(&medium, problem)?);
+        let (medium, over) = (self.medium(&problem.bounds)?, self.over().faster(false, problem));
+        self.continuity()?;
+        if let Some(law) = self.density() {
+            plan.add(law.kernel(problem)?);
         }
-        if let Walls::Extrapolate { weight } = self.walls()
-            && !problem.held.is_empty()
-        {
-            sph::wall_pressure(&medium, weight, problem)?.into_iter().for_each(|kernel| plan.add(kernel));
+        if self.has_states() {
+            plan.add(sph::state(&medium, over, problem)?);
         }
-        if !solves || friction.viscosity > 0.0 {
-            plan.add(sph::pressure(&medium, friction, self.walls(), problem)?.kernel(problem)?);
+        if let Some(law) = self.wall_pressure().filter(|_| !problem.held.is_empty()) {
+            plan.add(law.kernel(problem)?);
+            plan.add(sph::wall_state(&medium, over, problem)?);
         }
-        if xsph > 0.0 {
-            plan.add(sph::xsph(&medium, xsph, problem)?.kernel(problem)?);
+        for law in self.pushes() {
+            plan.add(law.kernel(problem)?);
         }
-        if let Some(tension) = tension {
-            for law in sph::tension(&medium, tension, problem)? {
-                plan.add(law.kernel(problem)?);
-            }
-        }
-        if solves {
+        if self.solves() {
             self.dfsph(medium, problem)?.evaluate(plan)?;
-        }
-        Ok(())
-    }
-    /// The rate of a density that is carried along with positions.
-    fn carry(&self, plan: &mut Plan, problem: &Problem) -> Result<(), Error> {
-        if let Some(continuity) = self.continuity()? {
-            plan.add(sph::rate(&self.medium(&problem.bounds)?, continuity, problem)?.kernel(problem)?);
         }
         Ok(())
     }

@@ -6,12 +6,12 @@ use std::sync::Arc;
 
 use glam::{DVec3, DVec4, Vec4};
 
-use super::{Form, Friction, Medium};
+use super::{Boxed, Form, Friction, Medium};
 use crate::error::Error;
 use crate::kernel::{
     ACCELERATION, Field, Host, Kernel, Pass, Plan, Problem, STEP_CRITERIA, Scalar, Shader, VELOCITY, World,
 };
-use crate::visit::{Candidate, Law, Outcome, Particle};
+use crate::visit::{Candidate, Law, Outcome, Over, Particle};
 
 /// The maximum distance of a particle in a step, in spacings, where there is no speed of sound (Courant, Friedrichs & Lewy 1928; 0.4 as in
 /// Bender & Koschier 2015).
@@ -58,11 +58,12 @@ pub fn viscous_steps(medium: &Medium, friction: Friction, problem: &Problem) -> 
 ///
 /// # Errors
 /// When the range is invalid, or a shader does not compile.
-pub fn limits(medium: &Medium, limits: Limits, plan: &mut Plan, problem: &Problem) -> Result<(), Error> {
+pub fn limits(of: &Boxed, over: Over, limits: Limits, plan: &mut Plan, problem: &Problem) -> Result<(), Error> {
     let Some(adaptive_step) = problem.adaptive_step else { return Ok(()) };
+    let medium = of(&problem.bounds)?;
     let (length, longest) = (0.5 * medium.range(), problem.dt / adaptive_step.courant);
     if limits.sound.is_some() {
-        plan.add(closing(medium, problem)?.kernel(problem)?);
+        plan.add(closing(of, over).kernel(problem)?);
     }
     let shares = Shares {
         acceleration: longest / length.sqrt(),
@@ -74,20 +75,23 @@ pub fn limits(medium: &Medium, limits: Limits, plan: &mut Plan, problem: &Proble
     Ok(())
 }
 
-fn closing(medium: &Medium, problem: &Problem) -> Result<Law, Error> {
-    let search = medium.search(Candidate::STILL, &[], problem)?;
-    let (length, fixed) = (0.5 * medium.range(), problem.clone());
-    let gather = move |me: &Particle, you: &Particle, r: DVec3, _: &World, most: &mut f64| {
-        let near = r.length_squared() + 0.01 * length * length;
-        *most = most.max((you.velocity - me.velocity).dot(r).abs() * length / near);
-    };
-    let finish = move |me: &Particle, most: &f64, _: &World, outcome: &mut Outcome| {
-        if !fixed.is_held(me.index) {
-            outcome.set(CLOSING.name, *most);
-        }
-    };
-    let wgsl = crate::shader!("sph/closing.wgsl");
-    Ok(Law::searching("fluid closing", search, wgsl, Vec::new(), &[CLOSING.name], gather, finish))
+fn closing(of: &Boxed, over: Over) -> Law {
+    let (of, wgsl) = (of.clone(), crate::shader!("sph/closing.wgsl"));
+    Law::outlined("fluid closing", over, wgsl, &[CLOSING.name], move |law, problem| {
+        let medium = of(&problem.bounds)?;
+        let search = medium.search(law.over, Candidate::STILL, &[], problem)?;
+        let (length, fixed) = (0.5 * medium.range(), problem.clone());
+        let gather = move |me: &Particle, you: &Particle, r: DVec3, _: &World, most: &mut f64| {
+            let near = r.length_squared() + 0.01 * length * length;
+            *most = most.max((you.velocity - me.velocity).dot(r).abs() * length / near);
+        };
+        let finish = move |me: &Particle, most: &f64, _: &World, outcome: &mut Outcome| {
+            if !fixed.is_held(me.index) {
+                outcome.set(CLOSING.name, *most);
+            }
+        };
+        Ok(law.searched(search, Vec::new(), gather, finish))
+    })
 }
 
 fn criterion(shares: &Shares, problem: &Problem) -> Result<Kernel, Error> {

@@ -1,12 +1,14 @@
 //! A fluid at rest, and its smoothing kernel.
 
+use std::sync::Arc;
+
 use glam::DVec3;
 
 use super::Smoothing;
 use crate::error::Error;
-use crate::kernel::{Problem, Source};
+use crate::kernel::{Bounds, Problem, Source};
 use crate::neighbors::Grid;
-use crate::visit::{Candidate, Search};
+use crate::visit::{Candidate, Over, Search};
 
 /// A fluid: its rest density, its compressibility, and its smoothing.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -30,8 +32,14 @@ pub struct Medium {
 }
 
 /// The data of a neighbour that searches of a fluid load: velocity, density and pressure, too.
-pub(super) const FLOWING: Candidate =
-    Candidate { particle: crate::shader!("sph/flowing.wgsl"), broadcast: crate::shader!("sph/flowing_broadcast.wgsl") };
+pub(super) const FLOWING: Candidate = Candidate {
+    particle: crate::shader!("sph/flowing.wgsl"),
+    broadcast: crate::shader!("sph/flowing_broadcast.wgsl"),
+    listed: Some(crate::shader!("sph/flowing_listed.wgsl")),
+};
+
+/// The fluid in a box, which says its dimensions.
+pub type Boxed = Arc<dyn Fn(&Bounds) -> Result<Medium, Error> + Send + Sync>;
 
 /// A kernel with the constants in front of it, which are sums over a lattice.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -130,15 +138,23 @@ impl Medium {
     pub fn grid(&self, problem: &Problem) -> Result<Grid, Error> {
         Grid::apart(self.range(), problem)
     }
-    /// A search of the fluid, of particles that are not fixed, with these fields in the order of its grid.
+    /// The grid of a visit that is settled; none over a kept list.
+    ///
+    /// # Errors
+    /// [`Error::Scene`] when the range is invalid.
+    pub fn grid_over(&self, over: Over, problem: &Problem) -> Result<Option<Grid>, Error> {
+        Ok(if matches!(over, Over::List { .. }) { None } else { Some(self.grid(problem)?) })
+    }
+    /// A search of the fluid, of particles that are not fixed, with these fields.
     pub(super) fn search(
         &self,
+        over: Over,
         candidate: Candidate,
-        sorted: &[&'static str],
+        fields: &[&'static str],
         problem: &Problem,
     ) -> Result<Search, Error> {
-        let (grid, files, constants) = (self.grid(problem)?, self.files(&[]), self.constants());
-        Ok(Search { grid, candidate, sorted: sorted.to_vec(), files, constants, fixed: false })
+        let (grid, files, constants) = (self.grid_over(over, problem)?, self.files(&[]), self.constants());
+        Ok(Search { grid, candidate, fields: fields.to_vec(), files, constants, fixed: false })
     }
     /// The files of a search of the fluid, with these files of its own.
     pub(super) fn files(&self, own: &[Source]) -> Vec<Source> {

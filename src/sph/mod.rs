@@ -25,14 +25,14 @@ pub use density::density;
 pub use dfsph::{Asked, DFSPH_ERRORS, DFSPH_REPORT, DFSPH_WORDS, Dfsph, columns as dfsph_columns};
 pub use gap::gap;
 pub use limits::{COURANT, Limits, limits, viscous_steps};
-pub use medium::{Medium, Smoothed};
+pub use medium::{Boxed, Medium, Smoothed};
 pub use pressure::{Form, Friction, Walls, pressure};
 pub use rates::Rates;
 pub use smoothing::Smoothing;
 pub use start::{Continuum, Start, Still};
 pub use state::state;
 pub use tension::{Tension, tension};
-pub use wall_pressure::wall_pressure;
+pub use wall_pressure::{wall_pressure, wall_state};
 pub use walls::{WallMass, walls};
 pub use xsph::xsph;
 
@@ -44,8 +44,8 @@ pub const DENSITY: Field<f32> = Field::new("density");
 pub(crate) const DENSITY_RATE: Field<f32> = Field::new("density_rate");
 /// The pressure, where it is solved for \[mass / (length time²), or mass / time² in two dimensions\]; of walls it is 0.
 pub const PRESSURE: Field<f32> = Field::new("pressure");
-/// The data of a neighbour, in the order of the cell list: density, which is 0 for walls; pressure over its square; internal energy per
+/// The data of a neighbour, at its place in the search: density, which is 0 for walls; pressure over its square; internal energy per
 /// unit mass.
 pub(crate) const FLOW: &str = "flow";
-/// The surface normal, in the order of the cell list.
+/// The surface normal, at its place in the search.
 pub(crate) const NORMAL: &str = "normal";

@@ -3,10 +3,9 @@
 use glam::DVec3;
 
 use super::medium::FLOWING;
-use super::{FLOW, Medium};
-use crate::error::Error;
-use crate::kernel::{ACCELERATION, Problem, Scalar, World};
-use crate::visit::{Law, Outcome, Particle};
+use super::{Boxed, FLOW, Medium};
+use crate::kernel::{ACCELERATION, Scalar, World};
+use crate::visit::{Law, Outcome, Over, Particle};
 
 /// The viscosities of a fluid.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -60,34 +59,36 @@ pub enum Walls {
 }
 
 /// The law of accelerations, with the internal energy as the potential.
-///
-/// # Errors
-/// When the range is invalid.
-pub fn pressure(medium: &Medium, friction: Friction, walls: Walls, problem: &Problem) -> Result<Law, Error> {
-    let search = medium.search(FLOWING, &[FLOW], problem)?;
-    let [central, morris] = friction.factors(medium);
-    let params = vec![
-        ("alpha", Scalar::Float(friction.alpha)),
-        ("central", Scalar::Float(central)),
-        ("morris", Scalar::Float(morris)),
-        ("wall", Scalar::Float(friction.wall)),
-        ("mirror", Scalar::Uint(u32::from(walls == Walls::Mirror))),
-    ];
-    let (medium, smoothed) = (*medium, medium.smoothed());
-    let gather = move |me: &Particle, you: &Particle, r, _: &World, sum: &mut DVec3| {
-        let push = push(&medium, friction, walls, [me, you], [flow(me), flow(you)], r);
-        *sum += you.mass * smoothed.gradient(r) * push;
-    };
-    let finish = |me: &Particle, sum: &DVec3, _: &World, outcome: &mut Outcome| {
-        if flow(me).x > 0.0 {
-            // Twice of what is all its own: of each pair's energy a visit leaves half.
-            outcome.accelerate(sum.extend(2.0 * flow(me).z));
-        }
-    };
-    let wgsl = crate::shader!("sph/pressure.wgsl");
-    let law = Law::searching("fluid pressure", search, wgsl, params, &[ACCELERATION.name], gather, finish);
-    // Walls are not pushed, and Morris' friction does not act along the line between two.
-    Ok(Law { reciprocal: problem.held.is_empty() && morris <= 0.0, ..law })
+#[must_use]
+pub fn pressure(of: &Boxed, over: Over, friction: Friction, walls: Walls) -> Law {
+    let (of, wgsl) = (of.clone(), crate::shader!("sph/pressure.wgsl"));
+    let law = Law::outlined("fluid pressure", over, wgsl, &[ACCELERATION.name], move |law, problem| {
+        let medium = of(&problem.bounds)?;
+        let search = medium.search(law.over, FLOWING, &[FLOW], problem)?;
+        let [central, morris] = friction.factors(&medium);
+        let params = vec![
+            ("alpha", Scalar::Float(friction.alpha)),
+            ("central", Scalar::Float(central)),
+            ("morris", Scalar::Float(morris)),
+            ("wall", Scalar::Float(friction.wall)),
+            ("mirror", Scalar::Uint(u32::from(walls == Walls::Mirror))),
+        ];
+        let smoothed = medium.smoothed();
+        let gather = move |me: &Particle, you: &Particle, r, _: &World, sum: &mut DVec3| {
+            let push = push(&medium, friction, walls, [me, you], [flow(me), flow(you)], r);
+            *sum += you.mass * smoothed.gradient(r) * push;
+        };
+        let finish = |me: &Particle, sum: &DVec3, _: &World, outcome: &mut Outcome| {
+            if flow(me).x > 0.0 {
+                // Twice of what is all its own: of each pair's energy a visit leaves half.
+                outcome.accelerate(sum.extend(2.0 * flow(me).z));
+            }
+        };
+        Ok(law.searched(search, params, gather, finish))
+    });
+    // Morris' friction does not act along the line between two. Fixed particles take what they receive, as of all laws.
+    let along = friction.viscosity == 0.0 || friction.form == Form::Central;
+    Law { reciprocal: along, ..law }
 }
 
 /// The flow variables of a particle: density, p / ρ² and energy; 0 for walls.

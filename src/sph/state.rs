@@ -6,47 +6,54 @@ use glam::{DVec4, Vec4};
 
 use super::{DENSITY, FLOW, Medium};
 use crate::error::Error;
-use crate::kernel::{Host, Kernel, Pass, Problem, Shader};
+use crate::kernel::{Host, Kernel, Pass, Problem, Reference, Shader};
 use crate::neighbors::{SORTED_ID, STARTS};
+use crate::visit::{Over, by_particle};
 
-/// The kernel that stores density, pressure and energy in the order of the cell list.
+/// The kernel that stores density, pressure and energy: in the order of the cell list, or by particle over a kept list; `over` is the visit,
+/// settled.
 ///
 /// # Errors
 /// When the range is invalid, or a shader does not compile.
-pub fn state(medium: &Medium, problem: &Problem) -> Result<Kernel, Error> {
-    let grid = medium.grid(problem)?;
+pub fn state(medium: &Medium, over: Over, problem: &Problem) -> Result<Kernel, Error> {
+    let grid = medium.grid_over(over, problem)?;
     let (holding, tables) = problem.holding();
-    let shader = Shader::join(&[
-        holding,
-        crate::shader!("world.wgsl"),
-        crate::shader!("fields.wgsl"),
-        crate::shader!("neighbors/starts.wgsl"),
-        grid.present(problem),
-        medium.smoothing.source(),
-        crate::shader!("sph/medium.wgsl"),
-        crate::shader!("sph/state.wgsl"),
-    ])?;
-    let mut constants = grid.constants(&shader);
+    let mut files = vec![holding, crate::shader!("world.wgsl"), crate::shader!("fields.wgsl")];
+    match &grid {
+        Some(grid) => files.extend([
+            crate::shader!("neighbors/starts.wgsl"),
+            grid.present(problem),
+            crate::shader!("sph/by_slot.wgsl"),
+        ]),
+        None => files.push(crate::shader!("sph/by_particle.wgsl")),
+    }
+    files.extend([medium.smoothing.source(), crate::shader!("sph/medium.wgsl"), crate::shader!("sph/state.wgsl")]);
+    let shader = Shader::join(&files)?;
+    let mut constants = grid.as_ref().map_or_else(Vec::new, |grid| grid.constants(&shader));
     constants.extend(shader.reflection().known(&medium.constants()));
-    let fields = [SORTED_ID, FLOW, STARTS].map(|name| grid.field(name));
-    let pass = Pass { constants, ..Pass::new(shader, problem.capacity) }.on(&fields);
-    let (starts, cells) = (grid.field(STARTS).1, u64::from(grid.bins()));
+    let pass = Pass { constants, ..Pass::new(shader, problem.capacity) };
+    let (pass, sizes, states) = match &grid {
+        Some(grid) => {
+            let fields = [SORTED_ID, FLOW, STARTS].map(|name| grid.field(name));
+            let starts = (grid.field(STARTS).1, u64::from(grid.bins()));
+            (pass.on(&fields), vec![starts], grid.field(FLOW).1)
+        }
+        None => (pass.on(&[(FLOW, by_particle(FLOW))]), Vec::new(), by_particle(FLOW)),
+    };
     let (me, all) = (*medium, problem.clone());
     let reference = move |host: &Host| {
-        let (ids, density) = (grid.occupants(host)?, host.read(DENSITY)?);
-        let mut flow = host.writing::<Vec4>(&grid.field(FLOW).1)?;
+        let density = host.read(DENSITY)?;
+        let ids = match &grid {
+            Some(grid) => grid.occupants(host)?,
+            None => (0..host.world().count).collect(),
+        };
+        let mut flow = host.writing::<Vec4>(&states)?;
         for (flow, id) in flow.iter_mut().zip(ids.iter().map(|id| *id as usize)) {
             let (pressure, energy) = me.state(density[id]);
             *flow = if all.is_held(id) { DVec4::ZERO } else { DVec4::new(density[id], pressure, energy, 0.0) };
         }
         Ok(())
     };
-    Ok(Kernel {
-        name: "fluid state".to_owned(),
-        passes: vec![pass],
-        reference: Some(Arc::new(reference)),
-        sizes: vec![(starts, cells)],
-        scratch: Vec::new(),
-        tables,
-    })
+    let (name, reference) = ("fluid state".to_owned(), Some(Arc::new(reference) as Reference));
+    Ok(Kernel { name, passes: vec![pass], reference, sizes, scratch: Vec::new(), tables })
 }

@@ -6,10 +6,9 @@ use glam::DVec3;
 
 use super::medium::FLOWING;
 use super::pressure::flow;
-use super::{FLOW, Medium, NORMAL};
-use crate::error::Error;
-use crate::kernel::{ACCELERATION, Problem, Scalar, World};
-use crate::visit::{Candidate, Law, Outcome, Particle};
+use super::{Boxed, FLOW, NORMAL};
+use crate::kernel::{ACCELERATION, Scalar, World};
+use crate::visit::{Candidate, Law, Outcome, Over, Particle};
 
 /// The surface tension of a fluid.
 ///
@@ -27,63 +26,71 @@ pub struct Tension {
     pub adhesion: f64,
 }
 
+/// The data of a neighbour with the normal of its surface.
+const BENT: Candidate = Candidate {
+    particle: crate::shader!("sph/bent.wgsl"),
+    broadcast: crate::shader!("sph/bent_broadcast.wgsl"),
+    listed: Some(crate::shader!("sph/bent_listed.wgsl")),
+};
+
 /// The laws that add what it does; it holds no potential energy, for curvature has none.
-///
-/// # Errors
-/// When the range is invalid.
-pub fn tension(medium: &Medium, tension: Tension, problem: &Problem) -> Result<[Law; 2], Error> {
-    Ok([normals(medium, problem)?, pull(medium, tension, problem)?])
+#[must_use]
+pub fn tension(of: &Boxed, over: Over, tension: Tension) -> [Law; 2] {
+    [normals(of, over), pull(of, over, tension)]
 }
 
-fn normals(medium: &Medium, problem: &Problem) -> Result<Law, Error> {
-    let search = medium.search(FLOWING, &[FLOW, NORMAL], problem)?;
-    let (medium, smoothed) = (*medium, medium.smoothed());
-    let gather = move |_: &Particle, you: &Particle, r, _: &World, sum: &mut DVec3| {
-        let density = flow(you).x;
-        if density > 0.0 {
-            *sum -= you.mass / density * smoothed.gradient(r) * medium.range() * r;
-        }
-    };
-    let finish = |me: &Particle, sum: &DVec3, _: &World, outcome: &mut Outcome| {
-        if flow(me).x > 0.0 {
-            outcome.set(NORMAL, *sum);
-        }
-    };
-    let wgsl = crate::shader!("sph/normal.wgsl");
-    Ok(Law::searching("fluid normals", search, wgsl, Vec::new(), &[NORMAL], gather, finish))
+fn normals(of: &Boxed, over: Over) -> Law {
+    let (of, wgsl) = (of.clone(), crate::shader!("sph/normal.wgsl"));
+    Law::outlined("fluid normals", over, wgsl, &[NORMAL], move |law, problem| {
+        let medium = of(&problem.bounds)?;
+        let search = medium.search(law.over, FLOWING, &[FLOW, NORMAL], problem)?;
+        let smoothed = medium.smoothed();
+        let gather = move |_: &Particle, you: &Particle, r, _: &World, sum: &mut DVec3| {
+            let density = flow(you).x;
+            if density > 0.0 {
+                *sum -= you.mass / density * smoothed.gradient(r) * medium.range() * r;
+            }
+        };
+        let finish = |me: &Particle, sum: &DVec3, _: &World, outcome: &mut Outcome| {
+            if flow(me).x > 0.0 {
+                outcome.set(NORMAL, *sum);
+            }
+        };
+        Ok(law.searched(search, Vec::new(), gather, finish))
+    })
 }
 
-fn pull(medium: &Medium, tension: Tension, problem: &Problem) -> Result<Law, Error> {
-    let candidate =
-        Candidate { particle: crate::shader!("sph/bent.wgsl"), broadcast: crate::shader!("sph/bent_broadcast.wgsl") };
-    let search = medium.search(candidate, &[FLOW, NORMAL], problem)?;
-    let volume = medium.range().powi(if medium.dimensions == 2 { 2 } else { 3 });
-    let [cohesion, curvature, adhesion] =
-        [32.0 / PI * tension.tension / volume, tension.tension, 0.007 * tension.adhesion / volume];
-    let params = vec![
-        ("cohesion", Scalar::Float(cohesion)),
-        ("curvature", Scalar::Float(curvature)),
-        ("adhesion", Scalar::Float(adhesion)),
-    ];
-    let medium = *medium;
-    let gather = move |me: &Particle, you: &Particle, r: DVec3, _: &World, sum: &mut DVec3| {
-        let (q, way) = (r.length() / medium.range(), r.try_normalize().unwrap_or_default());
-        let [mine, yours] = [me, you].map(|one| flow(one).x);
-        if yours > 0.0 {
-            let share = 2.0 * medium.density / (mine + yours);
-            let [normal, other] = [me, you].map(|one| one.vector(NORMAL).unwrap_or_default().truncate());
-            *sum += share * (cohesion * you.mass * hump(q) * way - curvature * (normal - other));
-        } else {
-            *sum += adhesion * you.mass * (6.0 * q - 4.0 * q * q - 2.0).max(0.0).powf(0.25) * way;
-        }
-    };
-    let finish = |me: &Particle, sum: &DVec3, _: &World, outcome: &mut Outcome| {
-        if flow(me).x > 0.0 {
-            outcome.accelerate(sum.extend(0.0));
-        }
-    };
-    let wgsl = crate::shader!("sph/tension.wgsl");
-    Ok(Law::searching("fluid tension", search, wgsl, params, &[ACCELERATION.name], gather, finish))
+fn pull(of: &Boxed, over: Over, tension: Tension) -> Law {
+    let (of, wgsl) = (of.clone(), crate::shader!("sph/tension.wgsl"));
+    Law::outlined("fluid tension", over, wgsl, &[ACCELERATION.name], move |law, problem| {
+        let medium = of(&problem.bounds)?;
+        let search = medium.search(law.over, BENT, &[FLOW, NORMAL], problem)?;
+        let volume = medium.range().powi(if medium.dimensions == 2 { 2 } else { 3 });
+        let [cohesion, curvature, adhesion] =
+            [32.0 / PI * tension.tension / volume, tension.tension, 0.007 * tension.adhesion / volume];
+        let params = vec![
+            ("cohesion", Scalar::Float(cohesion)),
+            ("curvature", Scalar::Float(curvature)),
+            ("adhesion", Scalar::Float(adhesion)),
+        ];
+        let gather = move |me: &Particle, you: &Particle, r: DVec3, _: &World, sum: &mut DVec3| {
+            let (q, way) = (r.length() / medium.range(), r.try_normalize().unwrap_or_default());
+            let [mine, yours] = [me, you].map(|one| flow(one).x);
+            if yours > 0.0 {
+                let share = 2.0 * medium.density / (mine + yours);
+                let [normal, other] = [me, you].map(|one| one.vector(NORMAL).unwrap_or_default().truncate());
+                *sum += share * (cohesion * you.mass * hump(q) * way - curvature * (normal - other));
+            } else {
+                *sum += adhesion * you.mass * (6.0 * q - 4.0 * q * q - 2.0).max(0.0).powf(0.25) * way;
+            }
+        };
+        let finish = |me: &Particle, sum: &DVec3, _: &World, outcome: &mut Outcome| {
+            if flow(me).x > 0.0 {
+                outcome.accelerate(sum.extend(0.0));
+            }
+        };
+        Ok(law.searched(search, params, gather, finish))
+    })
 }
 
 /// π h^D C / 32, of q = r / h.

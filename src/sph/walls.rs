@@ -2,10 +2,10 @@
 
 use glam::DVec3;
 
-use super::Medium;
+use super::Boxed;
 use crate::error::Error;
 use crate::kernel::{Kernel, POSITION, Problem, Scalar, World};
-use crate::visit::{Candidate, Law, Outcome, Particle, Search};
+use crate::visit::{Candidate, Law, Outcome, Over, Particle, Search};
 
 /// The mass of wall particles.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -23,24 +23,28 @@ const WEIGHED: &str = "weighed";
 ///
 /// # Errors
 /// When the range is invalid, or a shader does not compile.
-pub fn walls(medium: &Medium, weighs: WallMass, problem: &Problem) -> Result<Kernel, Error> {
-    let search = Search { fixed: true, ..medium.search(Candidate::STILL, &[], problem)? };
-    // 0: computed by the sum.
-    let mass = if weighs == WallMass::Sampled { 0.0 } else { medium.mass() };
-    let (medium, smoothed) = (*medium, medium.smoothed());
-    let (walls, held) = (problem.clone(), problem.clone());
-    let gather = move |_: &Particle, you: &Particle, r, _: &World, sum: &mut f64| {
-        *sum += if walls.is_held(you.index) { smoothed.kernel(r) } else { 0.0 };
-    };
-    let finish = move |me: &Particle, sum: &f64, _: &World, outcome: &mut Outcome| {
-        let sampled = medium.density / (sum + smoothed.kernel(DVec3::ZERO));
-        if held.is_held(me.index) {
-            let mass = if weighs == WallMass::Sampled { sampled } else { medium.mass() };
-            outcome.set(POSITION.name, me.position.extend(mass));
-        }
-    };
-    let (wgsl, params) = (crate::shader!("sph/walls.wgsl"), vec![("mass", Scalar::Float(mass))]);
-    let law = Law::searching("fluid walls", search, wgsl, params, &[WEIGHED], gather, finish);
+pub fn walls(of: &Boxed, weighs: WallMass, problem: &Problem) -> Result<Kernel, Error> {
+    let (of, wgsl) = (of.clone(), crate::shader!("sph/walls.wgsl"));
+    let over = Over::Near { range: of(&problem.bounds)?.range(), of: None };
+    let law = Law::outlined("fluid walls", over, wgsl, &[WEIGHED], move |law, problem| {
+        let medium = of(&problem.bounds)?;
+        let search = Search { fixed: true, ..medium.search(law.over, Candidate::STILL, &[], problem)? };
+        // 0: computed by the sum.
+        let mass = if weighs == WallMass::Sampled { 0.0 } else { medium.mass() };
+        let smoothed = medium.smoothed();
+        let (walls, held) = (problem.clone(), problem.clone());
+        let gather = move |_: &Particle, you: &Particle, r, _: &World, sum: &mut f64| {
+            *sum += if walls.is_held(you.index) { smoothed.kernel(r) } else { 0.0 };
+        };
+        let finish = move |me: &Particle, sum: &f64, _: &World, outcome: &mut Outcome| {
+            let sampled = medium.density / (sum + smoothed.kernel(DVec3::ZERO));
+            if held.is_held(me.index) {
+                let mass = if weighs == WallMass::Sampled { sampled } else { medium.mass() };
+                outcome.set(POSITION.name, me.position.extend(mass));
+            }
+        };
+        Ok(law.searched(search, vec![("mass", Scalar::Float(mass))], gather, finish))
+    });
     let mut kernel = law.kernel(problem)?;
     kernel.passes.iter_mut().for_each(|pass| pass.fields.push((WEIGHED.into(), POSITION.name.into())));
     Ok(kernel)

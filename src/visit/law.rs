@@ -6,7 +6,7 @@ use glam::{DVec3, DVec4};
 
 use super::reference::{ByTables, Sample};
 use super::{
-    Group, Jacobian, Memory, Outcome, Over, PairTable, Particle, Search, Tables, each, links, list, near, pairs,
+    Group, Jacobian, Memory, Outcome, Outlined, Over, PairTable, Particle, Search, Tables, each, links, list, near, pairs,
     reference, tree, two_words, virial, walk,
 };
 use crate::error::Error;
@@ -49,8 +49,10 @@ pub struct Law {
     pub distant: Distant,
     /// Over `links`: its reference for the tables of a problem.
     pub tied: Option<ByTables>,
-    /// Over `near`: its search, if it needs more than a range.
+    /// Its search, if it needs more than a range.
     pub search: Option<Search>,
+    /// The rest of a law of a method, whose numbers depend on the box: see [`Law::outlined`].
+    pub outlined: Option<Outlined>,
     /// Files beside its own, which have the functions that its visit calls.
     pub beside: Vec<Source>,
     /// The reference of the virial of its pairs, links or joints; `None` where there is none.
@@ -102,6 +104,7 @@ impl Law {
             distant: Distant::default(),
             tied: None,
             search: None,
+            outlined: None,
             beside: Vec::new(),
             virial: None,
             earlier: 0,
@@ -280,7 +283,7 @@ impl Law {
     /// # Errors
     /// [`Error::Shader`] when the WGSL does not compile, [`Error::Scene`] when a parameter is missing or unknown.
     pub fn kernel(self, problem: &Problem) -> Result<Kernel, Error> {
-        let law = self.settled(problem);
+        let law = self.settled(problem).made(problem)?;
         let mut kernel = law.clone().visiting(problem)?;
         law.bind_tables(&mut kernel, problem)?;
         law.check_columns(&mut kernel, problem)?;
@@ -306,7 +309,7 @@ impl Law {
     /// # Errors
     /// [`Error::Scene`] when its range is invalid.
     pub fn grid(&self, problem: &Problem) -> Result<Option<(Grid, bool)>, Error> {
-        near::grid(&self.settled(problem), problem)
+        near::grid(&self.settled(problem).made(problem)?, problem)
     }
     /// Whether it reads velocities, of the particle or of neighbours.
     ///
@@ -402,8 +405,8 @@ impl Law {
                 )));
             }
             // Without particles nothing is written.
-            let sorted = self.search.as_ref().and_then(|search| search.field(name));
-            let field = sorted.as_ref().unwrap_or(name);
+            let own = self.search.as_ref().and_then(|search| search.field(name));
+            let field = own.as_ref().unwrap_or(name);
             if !kernel.passes.is_empty() && !kernel.writes().iter().any(|written| written == field) {
                 return Err(Error::Scene(format!(
                     "`{}` is to write the column `{name}`, but {file} binds no `var<storage, read_write> {name}` that it uses",

@@ -8,7 +8,7 @@ pub use reference::{Memory, remembering};
 
 use super::{Law, Over};
 use crate::error::Error;
-use crate::kernel::{ALARM, ALARM_WORDS, Kernel, ListShape, Pass, Problem, Shader, Threads};
+use crate::kernel::{ALARM, ALARM_WORDS, Kernel, ListShape, Pass, Problem, Shader, Source, Threads};
 use crate::neighbors::{HISTORY, LIST, List};
 
 /// Rows of one dispatch, at most. It is an integer of workgroups.
@@ -56,6 +56,11 @@ pub fn shared(laws: &[Law], problem: &Problem) -> Result<Option<ListShape>, Erro
 }
 
 impl Law {
+    /// The file with the data of a neighbour on the list.
+    fn listed(&self) -> Result<Source, Error> {
+        let Some(search) = &self.search else { return Ok(crate::shader!("visit/list_neighbor.wgsl")) };
+        search.candidate.listed.clone().ok_or_else(|| Error::Scene(format!("`{}` has no visit over a kept list", self.name)))
+    }
     /// The error of a law with history that names a word beyond its slots.
     pub(crate) fn lacks(&self, word: u32) -> Error {
         let Over::List { slots, .. } = self.over else { return Error::Scene(format!("`{}` has no slots", self.name)) };
@@ -88,10 +93,12 @@ pub fn kernel(law: Law, range: f64, slots: u32, problem: &Problem) -> Result<Ker
     let mut sources = vec![
         crate::shader!("world.wgsl"),
         crate::shader!("fields.wgsl"),
+        law.listed()?,
         crate::shader!("visit/list.wgsl"),
         crate::shader!("visit/near_conclude.wgsl"),
         law.result(),
     ];
+    sources.extend(law.search.iter().flat_map(|search| search.files.clone()));
     sources.extend(law.choice());
     sources.extend(law.alarm_file());
     let mut sizes = law.alarm();
@@ -108,6 +115,8 @@ pub fn kernel(law: Law, range: f64, slots: u32, problem: &Problem) -> Result<Ker
         ]),
     }
     sources.extend(law.files(problem));
+    // A user's law may have such a function of its own.
+    let tables = if law.search.is_some() { problem.hold(&mut sources) } else { Vec::new() };
     let known = [sources.clone(), vec![crate::shader!("own/no_words.wgsl")]].concat();
     let mut shader = Shader::join(if slots > 0 { &known } else { &sources })?;
     // Contacts of ours name words beyond those that a material keeps, which are 0.
@@ -129,6 +138,7 @@ pub fn kernel(law: Law, range: f64, slots: u32, problem: &Problem) -> Result<Ker
     if slots > 0 {
         constants.push(("SLOTS", f64::from(slots)));
     }
+    constants.extend(law.search.iter().flat_map(|search| shader.reflection().known(&search.constants)));
     let mut passes = Vec::new();
     let mut first = 0;
     while first < problem.capacity {
@@ -143,5 +153,7 @@ pub fn kernel(law: Law, range: f64, slots: u32, problem: &Problem) -> Result<Ker
         first += rows;
     }
     sizes.extend([(LIST.into(), list.elements(problem.capacity)), (HISTORY.into(), list.words(problem.capacity))]);
-    Ok(Kernel { name: law.name, passes, reference: law.reference, sizes, scratch: Vec::new(), tables: Vec::new() })
+    let mut kernel = Kernel { name: law.name, passes, reference: law.reference, sizes, scratch: Vec::new(), tables };
+    law.search.iter().for_each(|search| search.bind(&mut kernel));
+    Ok(kernel)
 }

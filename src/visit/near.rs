@@ -14,7 +14,7 @@ pub const MOST_NEAREST: u32 = 16;
 /// The grid that a law searches, and whether it reads velocities there.
 pub fn grid(law: &Law, problem: &Problem) -> Result<Option<(Grid, bool)>, Error> {
     if let Some(search) = &law.search {
-        return Ok(Some((search.grid.clone(), true)));
+        return Ok(search.grid.clone().map(|grid| (grid, true)));
     }
     match law.over {
         Over::Near { range, of } => Ok(Some((Grid::new(range, of, problem)?, law.asks_velocities()))),
@@ -39,6 +39,9 @@ pub struct Candidate {
     /// The file with `fn broadcast0(q: Particle) -> Particle` to `broadcast7`: the particle loaded by lane 0 to 7. It is joined only with
     /// the walk of subgroups, since devices without subgroups refuse it.
     pub broadcast: Source,
+    /// The same over a kept list: the file with `struct Particle` and `fn neighbor(id: u32, pair: u32) -> Particle`; none where no law with
+    /// this data is over one.
+    pub listed: Option<Source>,
 }
 
 impl Candidate {
@@ -46,11 +49,13 @@ impl Candidate {
     pub const STILL: Self = Self {
         particle: crate::shader!("visit/near_still.wgsl"),
         broadcast: crate::shader!("visit/near_broadcast.wgsl"),
+        listed: Some(crate::shader!("visit/list_neighbor.wgsl")),
     };
     /// Position, mass and velocity.
     pub const MOVING: Self = Self {
         particle: crate::shader!("visit/near_moving.wgsl"),
         broadcast: crate::shader!("visit/near_broadcast.wgsl"),
+        listed: Some(crate::shader!("visit/list_neighbor.wgsl")),
     };
 }
 

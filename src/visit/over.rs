@@ -106,7 +106,7 @@ pub fn few_neighbors(machine: &Machine, moving: bool) -> f64 {
 
 impl Over {
     /// The faster one of the cell list and the kept list, for `Auto`.
-    pub(super) fn faster(self, moving: bool, problem: &Problem) -> Self {
+    pub(crate) fn faster(self, moving: bool, problem: &Problem) -> Self {
         let Self::Auto { range, skin } = self else { return self };
         let few = few_neighbors(&problem.machine, moving);
         // A cell list has the order of its cells, which change with the box.

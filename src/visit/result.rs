@@ -72,8 +72,8 @@ impl Outcome {
     }
 }
 
-/// Stores outcomes, by index. Of a potential energy each particle gets its share. Fields in the order of a search's grid are written at the
-/// particle's slot.
+/// Stores outcomes, by index. Of a potential energy each particle gets its share. Fields of a search are written at the particle's
+/// place in them.
 pub(super) fn write(
     host: &Host,
     share: f64,
@@ -82,7 +82,7 @@ pub(super) fn write(
 ) -> Result<(), Error> {
     // Each column is opened once, when it is first named.
     let mut columns: Vec<(Name, Array)> = Vec::new();
-    let slots = search.map_or(Ok(Vec::new()), |search| search.slots(host))?;
+    let slots = search.map_or(Ok(Vec::new()), |search| search.places(host))?;
     let mut acceleration = None;
     for (index, outcome) in outcomes {
         if let Some(a) = outcome.acceleration {
@@ -94,10 +94,10 @@ pub(super) fn write(
             }
         }
         for (name, change) in outcome.changes {
-            let sorted = search.and_then(|search| search.field(&name));
+            let own = search.and_then(|search| search.field(&name));
             // A particle outside the cell list has no slot.
-            let slot = if sorted.is_some() { slots.get(index).copied().flatten() } else { Some(index) };
-            let (Some(index), name) = (slot, sorted.unwrap_or(name)) else { continue };
+            let slot = if own.is_some() { slots.get(index).copied().flatten() } else { Some(index) };
+            let (Some(index), name) = (slot, own.unwrap_or(name)) else { continue };
             let place = columns.iter().position(|(known, _)| *known == name);
             let place = if let Some(place) = place {
                 place

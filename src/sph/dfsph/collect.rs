@@ -50,5 +50,5 @@ pub fn predict(of: &Dfsph<'_>) -> Result<Kernel, Error> {
     search.constants.extend([("WARM", WARM), ("RELAXATION", relaxes)]);
     let wgsl = crate::shader!("sph/dfsph/predict.wgsl");
     let gather = change(of.medium);
-    of.sweep(Law::searching("fluid predict", search, wgsl, Vec::new(), &[UNKNOWNS], gather, finish))
+    of.sweep(Law::searching("fluid predict", &of.grid, search, wgsl, &[UNKNOWNS], gather, finish))
 }

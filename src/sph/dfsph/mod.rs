@@ -154,9 +154,9 @@ impl<'a> Dfsph<'a> {
         all
     }
     /// A search of the fluid's particles, with these fields in the order of the cell list.
-    fn searching(&self, candidate: Candidate, sorted: &[&'static str]) -> Search {
-        let (grid, files, constants) = (self.grid.clone(), self.files(Vec::new()), self.medium.constants());
-        Search { grid, candidate, sorted: sorted.to_vec(), files, constants, fixed: false }
+    fn searching(&self, candidate: Candidate, fields: &[&'static str]) -> Search {
+        let (grid, files, constants) = (Some(self.grid.clone()), self.files(Vec::new()), self.medium.constants());
+        Search { grid, candidate, fields: fields.to_vec(), files, constants, fixed: false }
     }
     /// The kernel of a law that evaluates all pairs before these are known, with a `gather` of where they are.
     fn search(&self, law: Law) -> Result<Kernel, Error> {

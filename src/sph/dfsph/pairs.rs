@@ -45,6 +45,7 @@ impl Pairs {
         let slots = Candidate {
             particle: crate::shader!("sph/dfsph/slots.wgsl"),
             broadcast: crate::shader!("sph/dfsph/slots_broadcast.wgsl"),
+            listed: None,
         };
         let search = Search { files: Vec::new(), constants: Vec::new(), ..of.searching(slots, &[]) };
         let wgsl = crate::shader!("sph/dfsph/neighbors.wgsl");

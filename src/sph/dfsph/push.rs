@@ -25,16 +25,18 @@ pub fn push(of: &Dfsph<'_>, solve: Solve) -> Result<Kernel, Error> {
     let candidate = Candidate {
         particle: crate::shader!("sph/dfsph/stiff.wgsl"),
         broadcast: crate::shader!("sph/dfsph/stiff_broadcast.wgsl"),
+        listed: None,
     };
     let (name, search) = (format!("fluid {} push", solve.name()), of.searching(candidate, &[UNKNOWNS, PUSHES]));
     let wgsl = crate::shader!("sph/dfsph/push.wgsl");
-    of.sweep(Law::searching(&name, search, wgsl, Vec::new(), &[PUSHES], gather, finish))
+    of.sweep(Law::searching(&name, &of.grid, search, wgsl, &[PUSHES], gather, finish))
 }
 
 /// The data of a neighbour that a search for accelerations loads.
 pub const PUSHED: Candidate = Candidate {
     particle: crate::shader!("sph/dfsph/pushed.wgsl"),
     broadcast: crate::shader!("sph/dfsph/pushed_broadcast.wgsl"),
+    listed: None,
 };
 
 /// The acceleration of a particle, and whether it is solved for.
@@ -72,5 +74,5 @@ pub fn correct(of: &Dfsph<'_>, solve: Solve) -> Result<Kernel, Error> {
     search.constants.push(("SOLVE", f64::from(solve as u32)));
     let (name, wgsl) = (format!("fluid {} correct", solve.name()), crate::shader!("sph/dfsph/correct.wgsl"));
     let gather = change(of.medium);
-    of.sweep(Law::searching(&name, search, wgsl, Vec::new(), &[UNKNOWNS, ERRORS], gather, finish))
+    of.sweep(Law::searching(&name, &of.grid, search, wgsl, &[UNKNOWNS, ERRORS], gather, finish))
 }

@@ -51,5 +51,5 @@ pub fn kernel(of: &Dfsph<'_>) -> Result<Kernel, Error> {
     };
     let (search, wgsl) = (of.searching(Candidate::MOVING, &[]), crate::shader!("sph/dfsph/response.wgsl"));
     let into = [DENSITY.name, RESPONSES];
-    of.search(Law::searching("fluid response", search, wgsl, Vec::new(), &into, gather, finish))
+    of.search(Law::searching("fluid response", &of.grid, search, wgsl, &into, gather, finish))
 }

@@ -95,6 +95,7 @@ fn search(list: &List, problem: &Problem) -> Result<Vec<Pass>, Error> {
             crate::shader!("neighbors/list_candidate.wgsl")
         },
         broadcast: crate::shader!("neighbors/list_broadcast.wgsl"),
+        listed: None,
     };
     let mut sources = near::ground();
     sources.push(list.grid.present(problem));

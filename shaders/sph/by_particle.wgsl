@@ -1,0 +1,4 @@
+// States of particles by their indices.
+fn occupied() -> u32 { return world.count; }
+
+fn occupant(k: u32) -> u32 { return k; }
