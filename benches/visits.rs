@@ -92,6 +92,27 @@ fn systems(count: u32) -> Vec<System> {
         };
         (entry.build)(&settings)
     };
+    // Weakly compressible, with a speed of sound of some ten times the fastest particles.
+    let water = |more: &'static [(&'static str, &'static str)]| -> Box<dyn Fn(Over) -> Box<dyn Component>> {
+        Box::new(move |over| {
+            let entry = forces::entry("fluid").expect("fluids");
+            let numbers = [("density", 1.0), ("spacing", 1.0), ("sound_speed", 10.0), ("alpha", 0.1)];
+            // The range is the support in spacings of 1.
+            let support = [("support", over.range().unwrap_or(2.0))];
+            let fill = |settings: Settings, (key, value): (&'static str, f64)| settings.with(key, Value::Number(value));
+            let settings = numbers.into_iter().chain(support).fold(Settings::defaults(entry.keys), fill);
+            let settings = more.iter().fold(settings, |all, (key, word)| all.with(key, Value::Text((*word).into())));
+            let settings = match over {
+                Over::List { skin, .. } => {
+                    settings.with("over", Value::Text("list".into())).with("skin", Value::Number(skin.unwrap_or(0.0)))
+                }
+                _ => settings,
+            };
+            (entry.build)(&settings)
+        })
+    };
+    let summed: &[_] = &[];
+    let carried: &[_] = &[("density_by", "continuity")];
     let system = |name, range, dt, warm, (state, bounds), force| System { name, range, dt, warm, state, bounds, force };
     let birds =
         |name, neighbors| system(name, range(neighbors), 0.01, 100, particles(count, 1.0, 4.0, 2.0), Box::new(boids));
@@ -107,6 +128,9 @@ fn systems(count: u32) -> Vec<System> {
         sparse("density 7", 7.0),
         sparse("density 14", 14.0),
         system("density 33", 2.0, 0.02, 100, particles(count, 1.0, 0.2, 1.0), density),
+        system("water 33", 2.0, 0.02, 100, particles(count, 1.0, 0.2, 1.0), water(summed)),
+        system("water 33, density carried", 2.0, 0.02, 100, particles(count, 1.0, 0.2, 1.0), water(carried)),
+        system("water 113", 3.0, 0.02, 100, particles(count, 1.0, 0.2, 1.0), water(summed)),
         // ρ = 0.8442 and T = 0.72 when half of 1.44 has gone into melting.
         system("Lennard-Jones 55", 2.5, 0.005, 300, particles(count, 1.058, 0.02, 4.2), lennard_jones),
     ]

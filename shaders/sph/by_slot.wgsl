@@ -4,3 +4,5 @@
 fn occupied() -> u32 { return present(); }
 
 fn occupant(k: u32) -> u32 { return sorted_id[k]; }
+
+fn has_state(id: u32) -> bool { return !is_held(id); }

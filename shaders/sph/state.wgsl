@@ -9,7 +9,7 @@ fn state(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: v
     let k = folded(group, groups) * WORKGROUP + lane;
     if k >= occupied() { return; }
     let id = occupant(k);
-    if is_held(id) {
+    if !has_state(id) {
         flow[k] = vec4f();
         return;
     }

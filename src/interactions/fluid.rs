@@ -12,6 +12,7 @@ use crate::sph::{
 };
 use crate::kernel::{Bounds, Column, Plan};
 use crate::settings::{Key, Kind, Preset, Settings, Value};
+use crate::visit::Loads;
 
 /// The keys in a scene.
 pub const KEYS: &[Key] = &[
@@ -233,7 +234,7 @@ impl Component for Fluid {
         let weight = weighs.then(|| self.0.vector("weight"));
         let fluid = Continuum { medium, walls: self.wall_mass(), summed: continuity.is_none(), weight };
         Ok(Resolved {
-            cell_lists: medium.grid_over(self.over().faster(false, problem), problem)?.into_iter().map(|grid| (grid, true)).collect(),
+            cell_lists: medium.grid_over(self.over().faster(Loads::Fields, problem), problem)?.into_iter().map(|grid| (grid, true)).collect(),
             fluid: Some(fluid),
             rates: Some(Rates::of(&medium, self.friction(), self.0.number("xsph"))),
             viscous_steps: sph::viscous_steps(&medium, self.friction(), problem),
@@ -311,7 +312,7 @@ impl Fluid {
         Ok(())
     }
     fn evaluate(&self, plan: &mut Plan, problem: &Problem) -> Result<(), Error> {
-        let (medium, over) = (self.medium(&problem.bounds)?, self.over().faster(false, problem));
+        let (medium, over) = (self.medium(&problem.bounds)?, self.over().faster(Loads::Fields, problem));
         self.continuity()?;
         if let Some(law) = self.density() {
             plan.add(law.kernel(problem)?);

@@ -214,7 +214,7 @@ impl Problem {
     }
     /// Adds that file if one of the files calls the function, and returns the table.
     pub(crate) fn hold(&self, files: &mut Vec<Source>) -> Vec<Table> {
-        if !files.iter().any(|file| file.says(&["is_held", "("])) {
+        if !files.iter().any(|file| file.needs("is_held")) {
             return Vec::new();
         }
         let (file, table) = self.holding();

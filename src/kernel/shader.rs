@@ -78,9 +78,28 @@ impl Source {
         text.push_str(&self.text[end..]);
         Self { text: Cow::Owned(text), ..self.clone() }
     }
-    /// Whether the text, comments left out, contains these words in this order with only white space between.
+    /// Whether it defines a function of that name.
     #[must_use]
-    pub fn says(&self, words: &[&str]) -> bool {
+    pub fn defines(&self, function: &str) -> bool {
+        self.says(&["fn", function, "("])
+    }
+    /// Whether it calls a function of that name and does not define it, so that it is to be joined with a file that does.
+    #[must_use]
+    pub fn needs(&self, function: &str) -> bool {
+        self.says(&[function, "("]) && !self.defines(function)
+    }
+    /// Whether it declares a struct of that name.
+    #[must_use]
+    pub fn declares(&self, name: &str) -> bool {
+        self.says(&["struct", name, "{"])
+    }
+    /// Whether it has entry points, of any stage.
+    #[must_use]
+    pub fn has_entry_points(&self) -> bool {
+        ["compute", "vertex", "fragment"].into_iter().any(|stage| self.says(&["@", stage]))
+    }
+    /// Whether the text, comments left out, contains these words in this order with only white space between.
+    fn says(&self, words: &[&str]) -> bool {
         let tokens = own::tokens(&self.text);
         tokens.windows(words.len()).any(|w| w.iter().map(|token| token.text).eq(words.iter().copied()))
     }

@@ -14,7 +14,8 @@ pub fn density(of: &Boxed, over: Over) -> Law {
         let medium = of(&problem.bounds)?;
         let search = medium.search(law.over, Candidate::STILL, &[], problem)?;
         let (smoothed, problem) = (medium.smoothed(), problem.clone());
-        let gather = move |_: &Particle, you: &Particle, r, _: &World, sum: &mut f64| *sum += you.mass * smoothed.kernel(r);
+        let gather =
+            move |_: &Particle, you: &Particle, r, _: &World, sum: &mut f64| *sum += you.mass * smoothed.kernel(r);
         let finish = move |me: &Particle, sum: &f64, _: &World, outcome: &mut Outcome| {
             if !problem.is_held(me.index) {
                 outcome.set(DENSITY.name, sum + me.mass * smoothed.kernel(DVec3::ZERO));

@@ -25,7 +25,7 @@ pub fn state(medium: &Medium, over: Over, problem: &Problem) -> Result<Kernel, E
             grid.present(problem),
             crate::shader!("sph/by_slot.wgsl"),
         ]),
-        None => files.push(crate::shader!("sph/by_particle.wgsl")),
+        None => files.extend([problem.active(), crate::shader!("sph/by_particle.wgsl")]),
     }
     files.extend([medium.smoothing.source(), crate::shader!("sph/medium.wgsl"), crate::shader!("sph/state.wgsl")]);
     let shader = Shader::join(&files)?;
@@ -43,14 +43,15 @@ pub fn state(medium: &Medium, over: Over, problem: &Problem) -> Result<Kernel, E
     let (me, all) = (*medium, problem.clone());
     let reference = move |host: &Host| {
         let density = host.read(DENSITY)?;
-        let ids = match &grid {
-            Some(grid) => grid.occupants(host)?,
-            None => (0..host.world().count).collect(),
+        let (ids, is_active) = match &grid {
+            Some(grid) => (grid.occupants(host)?, None),
+            None => ((0..host.world().count).collect(), Some(host.is_active()?)),
         };
         let mut flow = host.writing::<Vec4>(&states)?;
         for (flow, id) in flow.iter_mut().zip(ids.iter().map(|id| *id as usize)) {
             let (pressure, energy) = me.state(density[id]);
-            *flow = if all.is_held(id) { DVec4::ZERO } else { DVec4::new(density[id], pressure, energy, 0.0) };
+            let without = all.is_held(id) || is_active.as_ref().is_some_and(|is_active| !is_active(id));
+            *flow = if without { DVec4::ZERO } else { DVec4::new(density[id], pressure, energy, 0.0) };
         }
         Ok(())
     };

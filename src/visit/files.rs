@@ -25,7 +25,7 @@ pub(super) const MERGE: &str = "fn merge(total: ptr<function, Sum>, part: Sum)";
 impl Law {
     /// Checks that a law with a `Sum` of its own adds two of them, for visits that evaluate parts of a sum.
     pub(super) fn requires_merge(&self) -> Result<(), Error> {
-        if self.wgsl.law && self.wgsl.says(&["struct", "Sum", "{"]) {
+        if self.wgsl.law && self.wgsl.declares("Sum") {
             self.requires(&[("merge", MERGE)])?;
         }
         Ok(())
@@ -40,21 +40,21 @@ impl Law {
     }
     /// The default `acts_on`, which includes all particles, for a law without one of its own.
     pub(super) fn choice(&self) -> Option<Source> {
-        (!self.says(&["fn", "acts_on", "("])).then_some(crate::shader!("visit/acts_on_all.wgsl"))
+        (!self.defines("acts_on")).then_some(crate::shader!("visit/acts_on_all.wgsl"))
     }
     /// Whether its file has the energy of a pair, from which its force follows.
     pub(super) fn is_potential(&self) -> bool {
-        self.wgsl.says(&["fn", "energy", "("]) && !self.says(&["fn", "gather", "("])
+        self.wgsl.defines("energy") && !self.defines("gather")
     }
     /// The files with its sum over pairs, unless its own has one: that of a pair potential, or one of accelerations.
     pub(super) fn sums(&self) -> Vec<Source> {
         let mut files = Vec::new();
         if self.is_potential() {
             files.push(crate::shader!("visit/potential.wgsl"));
-            if !self.wgsl.says(&["fn", "finish", "("]) {
+            if !self.wgsl.defines("finish") {
                 files.push(crate::shader!("visit/potential_finish.wgsl"));
             }
-        } else if !self.says(&["struct", "Sum", "{"]) {
+        } else if !self.own_files().any(|file| file.declares("Sum")) {
             files.push(crate::shader!("visit/sum.wgsl"));
         }
         files
@@ -77,12 +77,11 @@ impl Law {
         let mut files = vec![self.turns()];
         files.extend(sums);
         for (function, file) in ON_CALL {
-            let called = self.wgsl.says(&[function, "("]) && !self.wgsl.says(&["fn", function, "("]);
-            if called && !files.contains(&file) {
+            if self.wgsl.needs(function) && !files.contains(&file) {
                 files.push(file);
             }
         }
-        if self.wgsl.says(&["id_of", "("]) && !self.wgsl.says(&["fn", "id_of", "("]) {
+        if self.wgsl.needs("id_of") {
             files.push(problem.naming());
         }
         files.push(self.wgsl.clone());

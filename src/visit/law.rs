@@ -6,8 +6,8 @@ use glam::{DVec3, DVec4};
 
 use super::reference::{ByTables, Sample};
 use super::{
-    Group, Jacobian, Memory, Outcome, Outlined, Over, PairTable, Particle, Search, Tables, each, links, list, near, pairs,
-    reference, tree, two_words, virial, walk,
+    Group, Jacobian, Loads, Memory, Outcome, Outlined, Over, PairTable, Particle, Search, Tables, each, links, list,
+    near, pairs, reference, tree, two_words, virial, walk,
 };
 use crate::error::Error;
 use crate::kernel::{
@@ -330,16 +330,20 @@ impl Law {
         match self.over {
             // At half a box the nearest image jumps, and no group can be evaluated as one there.
             Over::Tree { auto: true, .. } if problem.bounds.has(Side::Periodic) && !self.distant.images => Over::Pairs,
-            over => over.chosen(problem).faster(self.asks_velocities(), problem),
+            over => over.chosen(problem).faster(self.loads(), problem),
         }
     }
-    /// Whether it reads velocities, of neighbours or of the particle.
-    pub(super) fn asks_velocities(&self) -> bool {
-        self.wgsl.says(&["velocity_of", "("])
+    /// What it loads of its neighbours.
+    pub(super) fn loads(&self) -> Loads {
+        if self.outlined.is_some() || self.search.is_some() {
+            return Loads::Fields;
+        }
+        // Linked with the function that loads them.
+        if self.wgsl.needs("velocity_of") { Loads::Velocities } else { Loads::Positions }
     }
     /// The same law with [`Over::Auto`] resolved: over the cell list or the kept list.
     pub(super) fn settled(&self, problem: &Problem) -> Self {
-        Self { over: self.over.faster(self.asks_velocities(), problem), ..self.clone() }
+        Self { over: self.over.faster(self.loads(), problem), ..self.clone() }
     }
     /// The tree that it walks, if any.
     #[must_use]
@@ -450,7 +454,7 @@ impl Law {
     }
     pub(super) fn requires(&self, functions: &[(&str, &str)]) -> Result<(), Error> {
         for (name, signature) in functions {
-            if !self.wgsl.says(&["fn", name, "("]) {
+            if !self.wgsl.defines(name) {
                 let message = format!(
                     "{}: a law over \"{}\" requires `{signature}`, and this file has none",
                     self.wgsl.file,

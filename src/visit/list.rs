@@ -28,13 +28,13 @@ pub fn shared(laws: &[Law], problem: &Problem) -> Result<Option<ListShape>, Erro
     let mut shape: Option<ListShape> = None;
     let mut reach = 0.0_f64;
     // Laws that name no skin follow those that do.
-    let given = laws.iter().filter_map(|law| match law.over.faster(law.asks_velocities(), problem) {
+    let given = laws.iter().filter_map(|law| match law.over.faster(law.loads(), problem) {
         Over::List { skin, .. } => skin,
         _ => None,
     });
     let given = given.reduce(f64::max).or(problem.skin);
     for law in laws {
-        let Over::List { range, skin, slots } = law.over.faster(law.asks_velocities(), problem) else { continue };
+        let Over::List { range, skin, slots } = law.over.faster(law.loads(), problem) else { continue };
         let (tuned, usual) = (skin.is_none(), given.unwrap_or(SKIN * range));
         let own = ListShape { range, skin: skin.unwrap_or(usual), tuned, words: slots, capacity: 4 };
         // Errors of a law's own list are reported for that law.
@@ -59,7 +59,11 @@ impl Law {
     /// The file with the data of a neighbour on the list.
     fn listed(&self) -> Result<Source, Error> {
         let Some(search) = &self.search else { return Ok(crate::shader!("visit/list_neighbor.wgsl")) };
-        search.candidate.listed.clone().ok_or_else(|| Error::Scene(format!("`{}` has no visit over a kept list", self.name)))
+        search
+            .candidate
+            .listed
+            .clone()
+            .ok_or_else(|| Error::Scene(format!("`{}` has no visit over a kept list", self.name)))
     }
     /// The error of a law with history that names a word beyond its slots.
     pub(crate) fn lacks(&self, word: u32) -> Error {
@@ -76,7 +80,7 @@ impl Law {
 /// The kernel of a law over the list, with `slots` words of history.
 pub fn kernel(law: Law, range: f64, slots: u32, problem: &Problem) -> Result<Kernel, Error> {
     law.requires_gather()?;
-    let asks = ["recall", "remember"].into_iter().find(|function| law.wgsl.says(&[function, "("]));
+    let asks = ["recall", "remember"].into_iter().find(|function| law.wgsl.needs(function));
     if let Some(function) = asks.filter(|_| slots == 0) {
         return Err(Error::Scene(format!(
             "{}: `{function}` is for a law with history of pairs: set the number of variables of each pair, as in slots = 3",

@@ -32,7 +32,7 @@ pub use law::{Distant, Law, numbered};
 pub use links::{LINK, LINK_START, bind};
 pub use list::{Memory, UNCOUNTED, build as list_kernel, is_list, shared as shared_list};
 pub use near::Candidate;
-pub use over::{Over, few_neighbors};
+pub use over::{Loads, Over, few_neighbors};
 pub use pair_table::{MOST_SPECIES, PAIR_TABLE, PairRow, PairTable};
 pub use particle::{Particle, View};
 pub use reference::{ByTables, Sample};

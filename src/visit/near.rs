@@ -1,6 +1,6 @@
 //! All pairs within a range, through the cell list.
 
-use super::{Law, Over};
+use super::{Law, Loads, Over};
 use crate::error::Error;
 use crate::kernel::{ALARM, ALARM_WORDS, Kernel, Machine, Name, Pass, Problem, Shader, Source, Threads};
 use crate::neighbors::{Grid, SORTED_ID, SORTED_POSITION, SORTED_VELOCITY, STARTS};
@@ -17,7 +17,7 @@ pub fn grid(law: &Law, problem: &Problem) -> Result<Option<(Grid, bool)>, Error>
         return Ok(search.grid.clone().map(|grid| (grid, true)));
     }
     match law.over {
-        Over::Near { range, of } => Ok(Some((Grid::new(range, of, problem)?, law.asks_velocities()))),
+        Over::Near { range, of } => Ok(Some((Grid::new(range, of, problem)?, law.loads() == Loads::Velocities))),
         Over::Nearest { count } => {
             if !(1..=MOST_NEAREST).contains(&count) {
                 let text =

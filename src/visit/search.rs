@@ -31,6 +31,7 @@ pub struct Search {
 pub type Outlined = Arc<dyn Fn(Law, &Problem) -> Result<Law, Error> + Send + Sync>;
 
 /// The name of a field of a method by particle; no column has a space in its name.
+#[must_use]
 pub fn by_particle(name: &str) -> Name {
     format!("{name} by particle").into()
 }
@@ -81,10 +82,14 @@ impl Law {
         let Some(complete) = self.outlined.clone() else { return Ok(self) };
         complete(self, problem)
     }
-    /// Whether its WGSL, or a file beside it, contains these words in a row.
-    pub(super) fn says(&self, words: &[&str]) -> bool {
+    /// Its WGSL, and the files beside it.
+    pub(super) fn own_files(&self) -> impl Iterator<Item = &Source> {
         let beside = self.search.iter().flat_map(|search| &search.files).chain(&self.beside);
-        std::iter::once(&self.wgsl).chain(beside).any(|file| file.says(words))
+        std::iter::once(&self.wgsl).chain(beside)
+    }
+    /// Whether one of them defines a function of that name.
+    pub(super) fn defines(&self, function: &str) -> bool {
+        self.own_files().any(|file| file.defines(function))
     }
 }
 

@@ -81,7 +81,7 @@ impl Law {
         };
         let mut files = vec![renamed(&self.wgsl)];
         files.extend(self.sums().iter().map(renamed));
-        let merges = files.iter().any(|file| file.says(&["fn", "pair_merge", "("]));
+        let merges = files.iter().any(|file| file.defines("pair_merge"));
         files.extend(self.beside.iter().map(renamed));
         files.push(crate::shader!("visit/virial.wgsl"));
         files.push(match self.over {

@@ -13,12 +13,16 @@ use motes::settings::{Kind, Settings, Value};
 
 const TIME: f64 = 0.83;
 
-/// Every force of the register in all its variants.
+/// Every force of the register in all its variants, and fluids.
 fn every(mut look: impl FnMut(&str, &'static Entry, &Settings, Box<dyn Component>)) {
     for entry in choices::lawful() {
         for settings in choices::variants(entry.keys) {
             look(&format!("{} {:?}", entry.name, settings.0), entry, &settings, (entry.build)(&settings));
         }
+    }
+    let entry = forces::entry("fluid").expect("fluids");
+    for settings in choices::fluids() {
+        look(&format!("fluid {:?}", settings.0), entry, &settings, (entry.build)(&settings));
     }
 }
 

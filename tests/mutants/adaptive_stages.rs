@@ -1,5 +1,7 @@
 //! Stages of what moves by a clock of steps that are not all alike, and of what fluids want of their length.
 
+use std::sync::Arc;
+
 use glam::Vec4;
 use motes::error::Error;
 use motes::forces::{Component, Law, Problem, Resolved};
@@ -43,7 +45,8 @@ impl Component for Silent {
         if stage != motes::component::Stage::StepLimit {
             return Ok(());
         }
-        sph::limits(&Self::medium(), Limits { sound: None, alpha: 0.0 }, plan, problem)
+        let (of, over) = (|_: &Bounds| Ok(Self::medium()), motes::forces::Over::Each);
+        sph::limits(&(Arc::new(of) as sph::Boxed), over, Limits { sound: None, alpha: 0.0 }, plan, problem)
     }
 }
 

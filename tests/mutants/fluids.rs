@@ -35,7 +35,6 @@ pub const EQUIVALENT: &[Equivalent] = &[
         "no two particles are at one place; tests/physics/fluids/turning.rs has two",
     ),
     same("sph/cubic", "return select(-6.0", "<=", "<", "both halves have one value where they meet"),
-    same("sph/", "return me.density > 0.0; }", ">", ">=", "fixed particles stand behind all that are evaluated"),
     same("sph/dense.wgsl", "return Particle(", "0.0", "1.0", "its pressure is not read"),
     same(
         "sph/wall_pressure",
@@ -80,7 +79,21 @@ fn cases() -> Vec<Case> {
             false,
             vec![("negative_pressure", Flag(false)), ("gamma", Number(2.0))],
         ),
+        case("in space, listed", false, Side::Periodic, true, listed(vec![("viscosity_form", word("morris"))])),
+        case(
+            "a surface, listed",
+            true,
+            Side::Open,
+            true,
+            listed(vec![("tension", Number(0.7)), ("adhesion", Number(900.0))]),
+        ),
+        case("a state, listed", false, Side::Open, true, listed(state(0.7))),
     ]
+}
+
+/// The same over a kept list.
+fn listed(settings: Vec<(&'static str, Value)>) -> Vec<(&'static str, Value)> {
+    [settings, vec![("over", word("list")), ("skin", Number(0.05))]].concat()
 }
 
 /// Density as a state, walls with a pressure of their own, and XSPH.
@@ -197,9 +210,10 @@ fn curious(problem: &Problem) -> Kernel {
     let candidate = Candidate {
         particle: motes::shader!("sph/flowing.wgsl"),
         broadcast: motes::shader!("sph/flowing_broadcast.wgsl"),
+        listed: None,
     };
-    let search =
-        Search { grid, candidate, sorted: vec!["flow"], files: Vec::new(), constants: Vec::new(), fixed: true };
+    let (files, constants) = (Vec::new(), Vec::new());
+    let search = Search { grid: Some(grid.clone()), candidate, fields: vec!["flow"], files, constants, fixed: true };
     let gather = |me: &Particle, you: &Particle, r: DVec3, _: &World, sum: &mut DVec4| {
         let near = 1.0 / (1.0 + 40.0 * r.length_squared());
         let way = you.velocity - me.velocity + (you.index % 7) as f64 * r;
@@ -212,6 +226,6 @@ fn curious(problem: &Problem) -> Kernel {
         }
     };
     let (wgsl, into) = (Source::ours("curious", CURIOUS), [ACCELERATION.name]);
-    let law = Law::searching("seen", search, wgsl, Vec::new(), &into, gather, finish);
+    let law = Law::searching("seen", &grid, search, wgsl, &into, gather, finish);
     law.kernel(problem).expect("a search")
 }

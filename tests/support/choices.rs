@@ -41,6 +41,24 @@ pub fn lawful() -> impl Iterator<Item = &'static Entry> {
     forces::entries().filter(|entry| !OWN.contains(&entry.name))
 }
 
+/// Fluids without friction, of which forces are the slope of the internal energy, by each search. Their settings contradict each other in
+/// most combinations: all else that they may have is in `tests/physics/fluids`.
+pub fn fluids() -> Vec<Settings> {
+    let keys = forces::entry("fluid").expect("fluids").keys;
+    let numbers = [("density", 0.7), ("spacing", 0.4375), ("support", 2.25), ("sound_speed", 0.3125), ("gamma", 3.0)];
+    let mut all = Vec::new();
+    for over in ["near", "list", "auto"] {
+        for kernel in ["cubic", "wendland"] {
+            let words = [("over", over), ("kernel", kernel)].map(|(key, word)| (key, Value::Text(Cow::Borrowed(word))));
+            let settings =
+                numbers.into_iter().fold(Settings::defaults(keys), |all, (key, x)| all.with(key, Value::Number(x)));
+            let settings = settings.with("negative_pressure", Value::Flag(true));
+            all.push(words.into_iter().fold(settings, |all, (key, word)| all.with(key, word)));
+        }
+    }
+    all
+}
+
 /// Every combination of the words and flags that some keys accept; all numbers nudged away from their defaults.
 pub fn variants(keys: &[Key]) -> Vec<Settings> {
     keys.iter().fold(vec![Settings::default()], |some, key| {

@@ -18,7 +18,7 @@ const FIELDS: [&str; 8] =
 /// other invocations.
 pub fn check(joined: &Joined) -> Result<(), Error> {
     for source in joined.sources.iter().filter(|source| source.law) {
-        if source.says(&["@", "compute"]) || source.says(&["@", "vertex"]) || source.says(&["@", "fragment"]) {
+        if source.has_entry_points() {
             let message = format!(
                 "{}: a law must not contain an entry point: motes calls its functions from entry points of its own",
                 source.file

@@ -2,7 +2,7 @@
 
 use motes::forces::{Component, Law, Over};
 use motes::kernel::{Machine, Plan, Source};
-use motes::visit::few_neighbors;
+use motes::visit::{Loads, few_neighbors};
 use motes::{Bounds, Setup};
 
 use crate::neighbors::exact::same;
@@ -49,17 +49,20 @@ fn few_neighbours_are_kept_on_a_list_where_that_is_measured() {
     for software in [false, true] {
         let machine = Machine { software, ..Machine::HOST };
         for range in [0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.8, 1.2] {
-            let still = setup(&state, Bounds::default(), Box::new(Weak(auto(range))), 7e-3);
-            assert!(!keeps_a_list(&step(&still, machine)), "{range}: of positions alone");
-            let setup = setup(&state, Bounds::default(), Box::new(Moving(auto(range))), 7e-3);
-            let few = few_neighbors(&machine, true);
-            let list = few > 0.0 && mean(range) <= few;
-            let plan = step(&setup, machine);
-            assert_eq!(keeps_a_list(&plan), list, "{software}, {range}: {} neighbours, {plan}", mean(range));
-            seen[usize::from(list)] += 1;
+            for (loads, force) in [
+                (Loads::Positions, Box::new(Weak(auto(range))) as Box<dyn Component>),
+                (Loads::Velocities, Box::new(Moving(auto(range)))),
+            ] {
+                let setup = setup(&state, Bounds::default(), force, 7e-3);
+                let few = few_neighbors(&machine, loads);
+                let list = few > 0.0 && mean(range) <= few;
+                let plan = step(&setup, machine);
+                assert_eq!(keeps_a_list(&plan), list, "{software}, {range}: {} neighbours, {plan}", mean(range));
+                seen[usize::from(list)] += 1;
+            }
         }
     }
-    assert!(seen[0] > 8 && seen[1] > 1, "{seen:?}");
+    assert!(seen[0] > 16 && seen[1] > 3, "{seen:?}");
 }
 
 #[test]

@@ -6,6 +6,8 @@ mod limits;
 mod motions;
 mod scenes;
 
+use std::sync::Arc;
+
 use crate::support::Shared;
 use crate::support::states::{force, integrator};
 use glam::DVec3;
@@ -67,7 +69,9 @@ impl Component for Silent {
         if stage != Stage::StepLimit {
             return Ok(());
         }
-        sph::limits(&Self::medium(problem), Limits { sound: None, alpha: 0.0 }, plan, problem)
+        let medium = Self::medium(problem);
+        let (of, over) = (move |_: &Bounds| Ok(medium), motes::Over::Each);
+        sph::limits(&(Arc::new(of) as sph::Boxed), over, Limits { sound: None, alpha: 0.0 }, plan, problem)
     }
 }
 

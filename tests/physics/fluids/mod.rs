@@ -14,6 +14,7 @@ mod friction;
 mod invariants;
 mod keys;
 mod laplace;
+mod listed;
 mod lockstep;
 mod rates;
 mod regime;
