@@ -16,7 +16,7 @@ use crate::support::equivalents::{Equivalent, same};
 use crate::support::fluids::{SPACING, bounds, cloud, fluid};
 use crate::support::machines::{alone, subgroups_of_eight};
 use crate::support::states::{integrator, vector, word};
-use crate::support::{Random, Shared};
+use crate::support::{Random, Shared, limited};
 
 use Value::{Flag, Number};
 
@@ -118,7 +118,8 @@ pub fn simulation(device: &Device, machine: Machine, setup: &Setup) -> Simulatio
     gpu.pretend(machine);
     let mut simulation = Simulation::on(gpu, setup).expect("a simulation");
     simulation.step(1).expect("a step");
-    let mut step = Step::new(&setup.forces, setup.problem(machine).expect("a problem"));
+    let (problem, list) = (setup.problem(machine).expect("a problem"), setup.plans(machine).expect("plans").list);
+    let mut step = Step::new(&setup.forces, problem.listed(list));
     step.evaluate();
     let program = simulation.backend().compile(&step.finished().expect("a plan")).expect("a program");
     simulation.backend().run(&program, 1).expect("an evaluation");
@@ -143,12 +144,16 @@ fn forget(simulation: &mut Simulation<Gpu>, kernel: &Kernel) {
 }
 
 pub fn all(shared: &Shared, device: &Device, stages: &mut Vec<Stage>) {
+    // A list of neighbours has more layers than few workgroups allow.
+    let large = &pollster::block_on(limited(shared, |_| {}));
     let mut machines = vec![LANES];
     if subgroups_of_eight(shared) {
         machines.push(EIGHT);
     }
     for (place, machine) in machines.iter().enumerate() {
-        for case in cases() {
+        // A list is the same, however its rows were found.
+        for case in cases().into_iter().filter(|case| place == 0 || !case.name.ends_with("listed")) {
+            let device = if case.name.ends_with("listed") { large } else { device };
             let bounds = bounds(FEW, case.flat, case.side);
             let setup = Setup {
                 state: cloud(FEW, case.flat, case.walls),
