@@ -573,6 +573,10 @@ typed! {
         tension: f64,
         /// The adhesion coefficient β of walls (Akinci, Akinci & Teschner 2013).
         adhesion: f64,
+        /// Wcsph: how neighbours are found: by a cell list, by a neighbour list that is reused over steps, or by the faster of both: near, list, auto.
+        over: Cow<'static, str>,
+        /// Over = "list" or "auto": the skin of the neighbour list beyond the range; 0: a fifth of the range, and chosen anew while it runs \[length\].
+        skin: f64,
         /// Dfsph: the tolerance of the mean density error \[relative to the density\].
         tolerance: f64,
         /// Dfsph: the tolerance of the mean density change by divergence in a step \[relative to the density\].
