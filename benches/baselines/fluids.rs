@@ -8,7 +8,7 @@ use motes::kernel::{Backend, Plan};
 use motes::neighbors::Cells;
 use motes::settings::{Settings, Value};
 use motes::shapes::random::Random;
-use motes::sph::{self, Form, Friction, Medium, Smoothing, Walls};
+use motes::sph::{Form, Friction, Medium, Smoothing};
 use motes::{Bounds, Error, POSITION, Setup, Side, Simulation, State, gpu, integrators};
 use serde_json::json;
 
@@ -127,7 +127,7 @@ fn measure(
         std::hint::black_box(water.positions());
     };
     let (device, plain) = crate::in_turns(args, &mut simulation, plain.then_some(&mut baseline))?;
-    let sweep = sweep(args, &mut simulation, &setup, &medium, friction)?;
+    let sweep = sweep(args, &mut simulation, &setup)?;
     let cells = Cells::new(setup.state.position(), setup.bounds, medium.range())?;
     let mut neighbors = 0_u64;
     let sample = (0..count as usize).step_by((count as usize / 1000).max(1));
@@ -151,17 +151,13 @@ fn apart(simulation: &mut Simulation<motes::Gpu>, water: &mut Water) -> Result<f
 }
 
 /// Seconds of the sweep of pressure over the grid as the last step left it.
-fn sweep(
-    args: &Args,
-    simulation: &mut Simulation<motes::Gpu>,
-    setup: &Setup,
-    medium: &Medium,
-    friction: Friction,
-) -> Result<Vec<f64>, Failure> {
+fn sweep(args: &Args, simulation: &mut Simulation<motes::Gpu>, setup: &Setup) -> Result<Vec<f64>, Failure> {
     let gpu = simulation.backend();
     let problem = setup.problem(gpu.machine())?;
     let mut plan = Plan::default();
-    plan.add(sph::pressure(medium, friction, Walls::Mirror, &problem)?.kernel(&problem)?);
+    let mut laws = setup.forces.iter().flat_map(|force| force.laws());
+    let pressure = laws.find(|law| law.name == "fluid pressure").expect("a fluid has pressure");
+    plan.add(pressure.kernel(&problem)?);
     let program = gpu.compile(&plan)?;
     let mut run = |turns| time(turns, || gpu.run(&program, turns).and_then(|()| gpu.wait()));
     let turns = crate::repeats(run(1)?.min(run(1)?));

@@ -2,7 +2,7 @@
 
 use motes::forces::{Component, Problem, Stage};
 use motes::gpu::Gpu;
-use motes::kernel::{Bounds, Columns, Kernel, Machine, Pass, Plan, Scalar};
+use motes::kernel::{Access, Bounds, Columns, Kernel, Machine, Pass, Plan, Scalar};
 
 use super::Shared;
 
@@ -119,4 +119,12 @@ pub fn parts(whole: &Pass, count: u32, targets: u32) -> Vec<Pass> {
         pass
     };
     (0..count).step_by(targets as usize).map(part).collect()
+}
+
+/// What is wrong with the uniform blocks of a kernel, if one does not begin with the unused word; see `src/kernel/unused_word.rs`.
+pub fn without_unused_word(kernel: &Kernel) -> Option<String> {
+    let blocks = || kernel.bindings().map(|(_, binding)| binding).filter(|b| b.access == Access::Uniform);
+    let members = |b: &motes::kernel::Binding| b.packed.members.clone();
+    let bad = blocks().find(|b| members(b).is_empty() || members(b).iter().any(|member| member.offset < 4))?;
+    Some(format!("the block `{}` has a member at offset 0", bad.name))
 }

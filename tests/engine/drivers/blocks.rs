@@ -5,6 +5,7 @@ use std::collections::BTreeSet;
 use motes::kernel::{Access, Kernel};
 
 use crate::drivers::kernels::{every, machines};
+use crate::support::machines::without_unused_word;
 
 /// What is wrong with any kernel of any machine.
 fn faults(wrong: impl Fn(&Kernel) -> Option<String>) -> BTreeSet<String> {
@@ -19,12 +20,7 @@ fn faults(wrong: impl Fn(&Kernel) -> Option<String>) -> BTreeSet<String> {
 
 #[test]
 fn uniform_blocks_begin_with_the_unused_word() {
-    let faults = faults(|kernel| {
-        let blocks = || kernel.bindings().map(|(_, binding)| binding).filter(|b| b.access == Access::Uniform);
-        let members = |b: &motes::kernel::Binding| b.packed.members.clone();
-        let bad = blocks().find(|b| members(b).is_empty() || members(b).iter().any(|member| member.offset < 4))?;
-        Some(format!("the block `{}` has a member at offset 0", bad.name))
-    });
+    let faults = faults(without_unused_word);
     assert!(faults.is_empty(), "{faults:#?}");
 }
 
