@@ -87,7 +87,7 @@ fn bound(kernel: &Kernel, access: Access) -> Vec<&str> {
 /// The files of its shaders.
 fn files(kernel: &Kernel) -> Vec<&str> {
     let sources = kernel.passes.first().into_iter().flat_map(|pass| pass.shader.sources());
-    sources.map(|source| source.file.as_ref()).filter(|file| !file.ends_with("world.wgsl")).collect()
+    sources.map(|source| source.file.as_ref()).filter(|file| *file != "shaders/world.wgsl").collect()
 }
 
 /// The number of its invocations.

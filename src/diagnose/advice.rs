@@ -223,7 +223,7 @@ pub fn advice(setup: &Setup, end: Option<f64>) -> Result<Vec<Remark>, Error> {
     for law in laws {
         let name = law.name.clone();
         let (without_reference, over, offered) = (law.reference.is_none(), law.over, law.jacobian.is_some());
-        let all_images = law.distant.images;
+        let (all_images, is_own) = (law.distant.images, law.wgsl.law);
         if let Some(reference) = law.reference.as_ref().filter(|_| setup.bounds.dimensions == 2) {
             in_the_plane(&name, reference, setup)?;
         }
@@ -237,7 +237,8 @@ pub fn advice(setup: &Setup, end: Option<f64>) -> Result<Vec<Remark>, Error> {
         if over == Over::Pairs && setup.bounds.has(Side::Periodic) && !all_images {
             let text = format!("`{name}` in a periodic box acts on nearest images only, without an Ewald sum");
             let remark = Remark::note("nearest-images", text);
-            remarks.push(if name == "gravity" {
+            // With the spline there are no images, and a user's law of that name has no such setting.
+            remarks.push(if name == "gravity" && !is_own {
                 remark.advice("set images = \"ewald\", in a cube that is periodic on all sides")
             } else {
                 remark

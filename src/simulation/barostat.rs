@@ -67,7 +67,7 @@ impl Setup {
         if let Some(why) = self.unserved_box().or_else(|| self.unserved_steps(barostat)) {
             return refuse(why);
         }
-        for force in self.forces.iter().filter(|force| force.name() != barostat.name()) {
+        for force in self.forces.iter().filter(|force| force.properties().barostat.is_none()) {
             let properties = force.properties();
             if properties.pictured.is_some() || properties.needs_forces {
                 return refuse(format!("does not serve `{}`: leave one of them out", force.name()));

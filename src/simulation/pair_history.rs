@@ -11,7 +11,7 @@ use super::Simulation;
 use crate::component::{earlier, numbered};
 use crate::error::Error;
 use crate::forces::{Component, Law};
-use crate::kernel::{Array, Backend, Element, ListShape, Plan};
+use crate::kernel::{Array, Backend, Element, Kernel, ListShape, Plan};
 use crate::neighbors::{HISTORY, LIST, LIST_ORIGIN, LIST_STATE, LIST_STATE_WORDS, List, NONE};
 use crate::state::{KEPT_PAIR_WORDS, KEPT_PAIRS, State};
 
@@ -32,9 +32,12 @@ pub(super) fn once(forces: &[Box<dyn Component>], step: &Plan) -> Result<(), Err
         let name = numbered(force.name(), earlier(forces, place));
         refuse(&name, step.steps().filter(|kernel| kernel.name == name).count())?;
     }
-    for law in forces.iter().flat_map(|force| force.laws()).filter(Law::remembers) {
-        let evaluations = step.steps().filter(|kernel| kernel.name == law.name).count();
-        refuse(&law.name, evaluations)?;
+    for (place, force) in forces.iter().enumerate() {
+        for law in force.laws().into_iter().filter(Law::remembers) {
+            let law = law.after(earlier(forces, place));
+            let evaluates = |kernel: &&Kernel| kernel.name == law.name && kernel.names(HISTORY);
+            refuse(&law.name, step.steps().filter(evaluates).count())?;
+        }
     }
     Ok(())
 }

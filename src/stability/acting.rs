@@ -2,14 +2,14 @@
 
 use crate::links::Link;
 use crate::simulation::Setup;
-use crate::visit::{Law, Over};
+use crate::visit::{Jacobian, Law, Over};
 
 /// The links of a setup with the stiffness along and across that their laws have together, at their lengths at the start; empty where no law
 /// acts on them. What pairs of all particles add is not in it.
 #[must_use]
 pub fn acting(setup: &Setup) -> Vec<Link> {
     let laws: Vec<Law> = setup.forces.iter().flat_map(|force| force.laws()).collect();
-    let springs = laws.iter().filter(|law| law.name == "spring").count() as f64;
+    let springs = laws.iter().filter(|law| is_spring(law)).count() as f64;
     let bonds: Vec<f64> = laws.iter().filter(|law| law.over == Over::Links).filter_map(|law| law.longest).collect();
     if springs == 0.0 && bonds.is_empty() {
         return Vec::new();
@@ -38,4 +38,9 @@ pub fn acting(setup: &Setup) -> Vec<Link> {
         Link { rest, stiffness: along * link.stiffness, damping, rope: false, ..*link }
     };
     setup.state.links.springs.iter().map(of).collect()
+}
+
+/// Whether a law is that of linear springs: one of links whose Jacobian is known, and that may have any length.
+fn is_spring(law: &Law) -> bool {
+    matches!(law.jacobian, Some(Jacobian::Links(_))) && law.longest.is_none()
 }

@@ -7,6 +7,7 @@ use super::{acting, others};
 use crate::error::Error;
 use crate::integrators::{Integrator, SymplecticEuler};
 use crate::simulation::Setup;
+use crate::visit::Over;
 
 /// A function that makes the integrator, with its settings.
 pub type Build<'a> = &'a (dyn Fn() -> Box<dyn Integrator> + Sync);
@@ -36,11 +37,11 @@ impl Verdict {
     /// # Errors
     /// Errors of a simulation of one particle by the references.
     pub async fn of(setup: &Setup, build: Build<'_>, steps: u64) -> Result<Option<Self>, Error> {
-        let names: Vec<String> = setup.forces.iter().flat_map(|force| force.laws()).map(|law| law.name).collect();
-        // Two forces of a kind act twice.
-        let acts = |kind: &str| names.iter().filter(|name| *name == kind).count() as f64;
+        // Two forces of a kind act twice. What a user's law does is not known.
+        let laws = setup.forces.iter().flat_map(|force| force.laws());
+        let bends = laws.filter(|law| law.over == Over::Joints && !law.wgsl.law).count() as f64;
         let springs = &*acting(setup);
-        let bending = acts("joint") > 0.0 && !setup.state.links.joints.is_empty();
+        let bending = bends > 0.0 && !setup.state.links.joints.is_empty();
         if springs.is_empty() && !bending {
             return Ok(None);
         }
@@ -52,7 +53,7 @@ impl Verdict {
         }
         let bound = Bound::of(springs, &masses);
         let duration = setup.dt * steps as f64;
-        let joints = acts("joint") * others::joints(setup, &masses);
+        let joints = bends * others::joints(setup, &masses);
         let (stiffness, damping) = others::each(setup);
         let highest =
             Mode { stiffness: bound.stiffness.sum + joints + stiffness, damping: bound.damping.sum + damping };

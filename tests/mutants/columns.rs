@@ -47,7 +47,7 @@ fn laws(kinds: u32) -> [Law; 2] {
     let rows = (0..kinds).flat_map(|a| (a..kinds).map(move |b| row(a, b))).collect();
     let block = [
         ("<storage, read> pair_table: array<Pair>", "<uniform> pair_table: array<Pair, 64>"),
-        ("{ strength", "{ @size(16) strength"),
+        ("{ strength: f32 }", "{ unused_word: u32, @size(12) strength: f32 }"),
     ];
     let block =
         block.into_iter().filter(|_| kinds == 1).fold(FIELD.to_owned(), |text, (old, new)| text.replace(old, new));

@@ -2,6 +2,8 @@
 
 use crate::support::states::{force, integrator};
 use glam::DVec3;
+use motes::forces::Over;
+use motes::kernel::Source;
 use motes::links::Link;
 use motes::stability::{Bound, Network, Oscillator, Verdict, largest_step};
 use motes::{Bounds, Gpu};
@@ -205,6 +207,16 @@ fn springs_resist_across_when_drawn_out() {
     }
 }
 
+/// A law without more.
+#[derive(Clone)]
+struct Own(motes::forces::Law);
+
+impl motes::forces::Component for Own {
+    fn laws(&self) -> Vec<motes::forces::Law> {
+        vec![self.0.clone()]
+    }
+}
+
 /// Of a whole setup: the bound by what acts, the limit of its integrator by both, and the parts of a step that is too long.
 #[test]
 fn a_setup_is_judged() {
@@ -228,6 +240,14 @@ fn a_setup_is_judged() {
         block_on(Verdict::of(&setup, &|| entry.by_default(), 1_000_000)).expect("a verdict")
     };
     assert_eq!(judged(Vec::new(), "leapfrog", 0.1), None);
+    // A user's law by the name of ours: what it does is not known.
+    let own = motes::forces::Law::own(
+        "spring",
+        Over::Links,
+        Source::law("spring.wgsl".to_owned(), String::new()),
+        Vec::new(),
+    );
+    assert_eq!(judged(vec![Box::new(Own(own))], "leapfrog", 0.1), None);
     // ω² ≤ 4 k / m, c ≤ 4 · 0.2 / m: h²ω² + 2hc = 4.
     let (square, damping) = (4000.0, 8.0);
     let want = 4.0 / (damping + f64::sqrt(damping * damping + 4.0 * square));
