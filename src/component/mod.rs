@@ -46,7 +46,8 @@ pub trait Component: Copied + Send + Sync {
     fn plan_columns(&self, _plan: &FloorPlan) -> Vec<Column> {
         Vec::new()
     }
-    /// Its laws, in the order in which they are evaluated; a later one may read what an earlier one wrote.
+    /// Its laws, in the order in which they are evaluated; a later one may read what an earlier one wrote. Where a component adds its kernels
+    /// itself ([`Component::stage`]), others may stand between them, and some be of another stage.
     fn laws(&self) -> Vec<Law> {
         Vec::new()
     }

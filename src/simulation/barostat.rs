@@ -72,6 +72,12 @@ impl Setup {
             if properties.pictured.is_some() || properties.needs_forces {
                 return refuse(format!("does not serve `{}`: leave one of them out", force.name()));
             }
+            if properties.makes_fluid {
+                return refuse(format!(
+                    "knows the pressure of pairs, and `{}` has one of its own: leave one of them out",
+                    force.name()
+                ));
+            }
             if let Some(why) = unserved_laws(force.as_ref()) {
                 return refuse(why);
             }

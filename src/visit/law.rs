@@ -37,7 +37,7 @@ pub struct Law {
     /// The columns that it writes; by default `acceleration`. Each other column is bound as `var<storage, read_write>` under its name.
     /// Without `acceleration` its `finish` returns nothing, and over `each` it has `fn update(me: Particle)` in place of `force`.
     pub into: Vec<Name>,
-    /// The visit's reference, with the law's inside; `None` only for a user's law.
+    /// The visit's reference, with the law's inside; `None` for a user's law, and for an outlined one.
     pub reference: Option<Reference>,
     /// Whether the forces of a pair are equal and opposite, so that momentum is conserved.
     pub reciprocal: bool,

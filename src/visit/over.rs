@@ -108,8 +108,9 @@ pub enum Loads {
 }
 
 /// The mean number of neighbours within range at the start up to which a kept list is faster than the cell list. Measured on lavapipe by
-/// `cargo bench --bench visits`: with a list laws of positions take 0.86 of the time for 14 neighbours and 1.2 for 33, flocks 0.85 for 14 and 1.2
-/// for 33, and fluids 0.85 for 33 and 1.9 for 113. GPUs have not been measured, and use the cell list.
+/// `cargo bench --bench visits`, numbers of neighbours being those at the start: with a list a cheap law of positions takes 0.86 of the time for
+/// 14 neighbours and 1.2 for 33, a dear one 0.95 for 33, flocks 0.85 for 14 and 1.2 for 33, and fluids 0.8 to 0.87 for 33 and 1.7 or more for
+/// 113. GPUs have not been measured, and use the cell list.
 #[must_use]
 pub fn few_neighbors(machine: &Machine, loads: Loads) -> f64 {
     match loads {

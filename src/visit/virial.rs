@@ -47,7 +47,7 @@ impl Law {
         if law.wgsl.ours && !law.reciprocal {
             return refuse("exerts forces that are not equal and opposite");
         }
-        if law.search.is_some() || law.distant.images {
+        if law.search.is_some() || law.outlined.is_some() || law.distant.images {
             return refuse("has more than the forces of single pairs");
         }
         if law.into.iter().any(|name| name != ACCELERATION.name) {

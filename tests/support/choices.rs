@@ -41,13 +41,13 @@ pub fn lawful() -> impl Iterator<Item = &'static Entry> {
     forces::entries().filter(|entry| !OWN.contains(&entry.name))
 }
 
-/// Fluids without friction, of which forces are the slope of the internal energy, by each search. Their settings contradict each other in
+/// Fluids without friction, of which forces are the slope of the internal energy, with a cell list and with a list. Their settings contradict each other in
 /// most combinations: all else that they may have is in `tests/physics/fluids`.
 pub fn fluids() -> Vec<Settings> {
     let keys = forces::entry("fluid").expect("fluids").keys;
     let numbers = [("density", 0.7), ("spacing", 0.4375), ("support", 2.25), ("sound_speed", 0.3125), ("gamma", 3.0)];
     let mut all = Vec::new();
-    for over in ["near", "list", "auto"] {
+    for over in ["near", "list"] {
         for kernel in ["cubic", "wendland"] {
             let words = [("over", over), ("kernel", kernel)].map(|(key, word)| (key, Value::Text(Cow::Borrowed(word))));
             let settings =

@@ -362,6 +362,8 @@ fn what_a_barostat_does_not_serve_is_refused() {
     };
     refused(with(barostat("cell_rescaling", 1.0, 0.2, 1.0, 10)), "another barostat");
     refused(with(force("uniform", &[])), "acts on single particles");
+    let fluid = [("spacing", Number(1.0)), ("sound_speed", Number(10.0))];
+    refused(with(force("fluid", &fluid)), "`fluid` has one of its own");
     refused(with(force("boids", &[("over", word("list"))])), "not equal and opposite");
     refused(Setup { forces: vec![cut(1.5, "cut", "near"), pushed()], ..good() }, "choose over = \"list\"");
     refused(with(force("boids", &[("over", word("nearest"))])), "choose over = \"list\"");
