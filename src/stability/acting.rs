@@ -40,7 +40,7 @@ pub fn acting(setup: &Setup) -> Vec<Link> {
     setup.state.links.springs.iter().map(of).collect()
 }
 
-/// Whether a law is that of linear springs: one of links whose Jacobian is known, and that may have any length.
+/// Whether a law is that of linear springs: one of links with a known Jacobian, at any length.
 fn is_spring(law: &Law) -> bool {
     matches!(law.jacobian, Some(Jacobian::Links(_))) && law.longest.is_none()
 }

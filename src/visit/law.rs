@@ -51,7 +51,7 @@ pub struct Law {
     pub tied: Option<ByTables>,
     /// Its search, if it needs more than a range.
     pub search: Option<Search>,
-    /// The rest of a law of a method, whose numbers depend on the box: see [`Law::outlined`].
+    /// The rest of a law of a method with numbers that depend on the box: see [`Law::outlined`].
     pub outlined: Option<Outlined>,
     /// Files beside its own, which have the functions that its visit calls.
     pub beside: Vec<Source>,

@@ -27,7 +27,7 @@ pub struct Search {
     pub fixed: bool,
 }
 
-/// What completes an outlined law, whose visit is settled, in a problem.
+/// What completes an outlined law with a settled visit, in a problem.
 pub type Outlined = Arc<dyn Fn(Law, &Problem) -> Result<Law, Error> + Send + Sync>;
 
 /// The name of a field of a method by particle; no column has a space in its name.
@@ -37,7 +37,7 @@ pub fn by_particle(name: &str) -> Name {
 }
 
 impl Law {
-    /// A law of a method whose numbers depend on the box, such as those of a smoothing kernel on its dimensions: `complete` makes the rest by
+    /// A law of a method with numbers that depend on the box, such as those of a smoothing kernel on its dimensions: `complete` makes the rest by
     /// [`Law::searched`]. It may write fields of the method that are not columns.
     pub fn outlined(
         name: &str,
