@@ -20,7 +20,11 @@ pub fn params(settings: &Settings, names: &[&str]) -> Vec<(String, Scalar)> {
 
 /// Which pairs are evaluated, where a force has a cut-off radius; `of` is the species of the neighbours.
 pub fn over(settings: &Settings, of: Option<u32>) -> Over {
-    let range = settings.number("range");
+    over_within(settings, settings.number("range"), of)
+}
+
+/// The same within a range that has no key of its own.
+pub fn over_within(settings: &Settings, range: f64, of: Option<u32>) -> Over {
     let skin = Some(settings.number("skin")).filter(|skin| *skin > 0.0);
     match settings.text("over") {
         "within" => Over::Within { range },

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use glam::DVec3;
 
-use super::{Component, Law, Over, Problem, Properties, Resolved, SKIN, Stage};
+use super::{Component, Law, Over, Problem, Properties, Resolved, SKIN, Stage, over_within};
 use crate::error::Error;
 use crate::sph::{
     self, Asked, Boxed, COURANT, Continuity, Continuum, Dfsph, Form, Friction, Limits, Medium, Rates, Smoothing, Tension, WallMass, Walls,
@@ -268,12 +268,8 @@ impl Fluid {
     /// How its neighbours are found.
     fn over(&self) -> Over {
         let range = self.0.number("support") * self.0.number("spacing");
-        let skin = Some(self.0.number("skin")).filter(|skin| *skin > 0.0);
-        match self.0.text("over") {
-            "list" => Over::List { range, skin, slots: 0 },
-            "auto" if !self.solves() => Over::Auto { range, skin },
-            _ => Over::Near { range, of: None },
-        }
+        // A pressure solve stores the pairs of each step.
+        if self.solves() { Over::Near { range, of: None } } else { over_within(&self.0, range, None) }
     }
     /// Whether its laws need states: where pressure is solved for, there is neither sound nor a pressure by an equation of state, but
     /// friction and tension remain.

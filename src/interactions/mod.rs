@@ -5,7 +5,7 @@ mod ewald;
 mod ewald_split;
 mod pair_potential;
 
-use crate::component::keys::{EACH, SEE_NEAR, SEED, SKIN, is_nearer, over, params, seed};
+use crate::component::keys::{EACH, SEE_NEAR, SEED, SKIN, is_nearer, over, over_within, params, seed};
 use crate::component::kind::{SPECIES, species};
 use crate::component::{Component, Properties, Resolved, Stage, components, evaluate, numbered};
 use crate::constraints::speed_limit;

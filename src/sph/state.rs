@@ -8,7 +8,7 @@ use super::{DENSITY, FLOW, Medium};
 use crate::error::Error;
 use crate::kernel::{Host, Kernel, Pass, Problem, Reference, Shader};
 use crate::neighbors::{SORTED_ID, STARTS};
-use crate::visit::{Over, by_particle};
+use crate::visit::{Over, placed};
 
 /// The kernel that stores density, pressure and energy: in the order of the cell list, or by particle over a kept list; `over` is the visit,
 /// settled.
@@ -32,14 +32,13 @@ pub fn state(medium: &Medium, over: Over, problem: &Problem) -> Result<Kernel, E
     let mut constants = grid.as_ref().map_or_else(Vec::new, |grid| grid.constants(&shader));
     constants.extend(shader.reflection().known(&medium.constants()));
     let pass = Pass { constants, ..Pass::new(shader, problem.capacity) };
-    let (pass, sizes, states) = match &grid {
-        Some(grid) => {
-            let fields = [SORTED_ID, FLOW, STARTS].map(|name| grid.field(name));
-            let starts = (grid.field(STARTS).1, u64::from(grid.bins()));
-            (pass.on(&fields), vec![starts], grid.field(FLOW).1)
-        }
-        None => (pass.on(&[(FLOW, by_particle(FLOW))]), Vec::new(), by_particle(FLOW)),
-    };
+    let (_, states) = placed(grid.as_ref(), FLOW);
+    let mut pass = pass.on(&[(FLOW, states.clone())]);
+    let mut sizes = Vec::new();
+    if let Some(grid) = &grid {
+        pass = pass.on(&[SORTED_ID, STARTS].map(|name| grid.field(name)));
+        sizes.push((grid.field(STARTS).1, u64::from(grid.bins())));
+    }
     let (me, all) = (*medium, problem.clone());
     let reference = move |host: &Host| {
         let density = host.read(DENSITY)?;

@@ -9,7 +9,7 @@ use super::pressure::flow;
 use super::{Boxed, FLOW, Medium};
 use crate::error::Error;
 use crate::kernel::{Host, Kernel, Pass, Problem, Scalar, Shader, World};
-use crate::visit::{Law, Outcome, Over, Particle, Search, by_particle};
+use crate::visit::{Law, Outcome, Over, Particle, Search, placed};
 
 /// The pressure that walls find, over ρ₀², at their places in the search.
 const WALL_PRESSURE: &str = "wall_pressure";
@@ -48,8 +48,7 @@ pub fn wall_pressure(of: &Boxed, over: Over, weight: DVec3) -> Law {
 /// When the range is invalid, or a shader does not compile.
 pub fn wall_state(medium: &Medium, over: Over, problem: &Problem) -> Result<Kernel, Error> {
     let grid = medium.grid_over(over, problem)?;
-    let field = |name: &'static str| grid.as_ref().map_or_else(|| (name, by_particle(name)), |grid| grid.field(name));
-    let fields = [WALL_PRESSURE, FLOW].map(field);
+    let fields = [WALL_PRESSURE, FLOW].map(|name| placed(grid.as_ref(), name));
     let shader = Shader::join(&[
         crate::shader!("world.wgsl"),
         crate::shader!("fields.wgsl"),

@@ -37,7 +37,7 @@ pub use pair_table::{MOST_SPECIES, PAIR_TABLE, PairRow, PairTable};
 pub use particle::{Particle, View};
 pub use reference::{ByTables, Sample};
 pub use result::{Cell, Outcome};
-pub use search::{Outlined, Search, by_particle};
+pub use search::{Outlined, Search, placed};
 pub use tied::Tables;
 pub(crate) use tied::Tied;
 pub use tree::crossing;

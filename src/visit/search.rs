@@ -30,10 +30,10 @@ pub struct Search {
 /// What completes an outlined law with a settled visit, in a problem.
 pub type Outlined = Arc<dyn Fn(Law, &Problem) -> Result<Law, Error> + Send + Sync>;
 
-/// The name of a field of a method by particle; no column has a space in its name.
+/// A field of a method, by its name in shaders: in the order of a grid, or by particle where there is none. No column has a space in its name.
 #[must_use]
-pub fn by_particle(name: &str) -> Name {
-    format!("{name} by particle").into()
+pub fn placed(grid: Option<&Grid>, name: &'static str) -> (&'static str, Name) {
+    grid.map_or_else(|| (name, format!("{name} by particle").into()), |grid| grid.field(name))
 }
 
 impl Law {
@@ -110,7 +110,7 @@ impl Search {
     /// The field of the method with that name, if there is one.
     pub(super) fn field(&self, name: &str) -> Option<Name> {
         let inside = self.fields.iter().find(|inside| **inside == name)?;
-        Some(self.grid.as_ref().map_or_else(|| by_particle(inside), |grid| grid.field(inside).1))
+        Some(placed(self.grid.as_ref(), inside).1)
     }
     /// The element of a field that each particle has: its slot in the cell list, if it has one, or its index.
     pub(super) fn places(&self, host: &Host) -> Result<Vec<Option<usize>>, Error> {
