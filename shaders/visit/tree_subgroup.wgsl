@@ -35,18 +35,20 @@ fn walk(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: ve
         ours = 0u;
     }
     let walks = there && (tree.again == 0u || search.more);
+    var lists = Lists();
+    // So many entries have been evaluated, and of one of leaves this is left.
     var met = vec2u();
+    var open = 0u;
     loop {
         // Visits nodes until a list is long, or until no node is left.
         var doubtful = false;
         while goes_on(search, met) {
-            while goes_on(search, met) && !doubtful { doubtful = look(&search, here, own, place, false); }
+            while goes_on(search, met) && !doubtful { doubtful = look(&search, &lists, here, own, place, false); }
             // Targets are asked in an iteration of the outer loop, of which there are few.
-            if doubtful { look(&search, here, own, place, true); }
+            if doubtful { look(&search, &lists, here, own, place, true); }
             doubtful = false;
         }
-        workgroupBarrier();
-        // Whole eights are evaluated, and at the end what is left, one by one: the very last leaf may not be full.
+        // Whole eights are evaluated, and at the end what is left, one by one.
         let ends = !search.more || search.spent > MOST;
         let listed = search.listed;
         var part_a = Sum();
@@ -54,27 +56,34 @@ fn walk(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: ve
         var part_c = Sum();
         var part_d = Sum();
         for (; met.x + LANES <= listed.x; met.x += LANES) {
-            let n = list[(met.x + place) % (2u * FAR)];
+            let n = lists.far[met.x / WORKGROUP % ROWS];
             let x = tree_center[n].xyz;
             meet_groups(x, group_at(n), a, b, c, d, &part_a, &part_b, &part_c, &part_d);
             search.spent += 1u;
         }
         for (; ends && met.x < listed.x; met.x += 1u) {
-            let n = list[met.x % (2u * FAR)];
+            let mine = lists.far[met.x / WORKGROUP % ROWS];
+            let n = subgroupMax(select(0u, mine, place == met.x % WORKGROUP));
             meet_group(tree_center[n].xyz, group_at(n), a, b, c, d, &part_a, &part_b, &part_c, &part_d);
             search.spent += 1u;
         }
-        for (; met.y + select(LANES / LEAF, LANES / LEAF + 1u, ends) <= listed.y; met.y += LANES / LEAF) {
-            let leaf = list[2u * FAR + (met.y + place / LEAF) % (2u * NEAR)];
-            let slot = (leaf - (1u << tree.height)) * LEAF + place % LEAF;
+        // The very last leaf may not be full, and is evaluated one by one.
+        while search.leaves >= select(LANES / LEAF, LANES / LEAF + 1u, ends) {
+            var leaf = 0u;
+            for (var i = 0u; i < LANES / LEAF; i += 1u) {
+                let next = next_leaf(&search, &lists, &met, &open);
+                leaf = select(leaf, next, place / LEAF == i);
+            }
+            let slot = leaf * LEAF + place % LEAF;
             let p = tree_body[slot];
             meet_bodies(tree_id[slot], p, a, b, c, d, &part_a, &part_b, &part_c, &part_d);
-            search.spent += 1u;
+            search.spent += 2u + LANES / LEAF;
         }
-        let single = ours + select(0u, (listed.y - met.y) * LEAF, ends);
+        let single = ours + select(0u, search.leaves * LEAF, ends);
+        var leaf = 0u;
         for (var i = 0u; i < single; i += 1u) {
-            let leaf = list[2u * FAR + (met.y + (i - ours) / LEAF) % (2u * NEAR)];
-            let slot = select((leaf - (1u << tree.height)) * LEAF + i % LEAF, first + i, i < ours);
+            if i >= ours && (i - ours) % LEAF == 0u { leaf = next_leaf(&search, &lists, &met, &open); }
+            let slot = select(leaf * LEAF + (i - ours) % LEAF, first + i, i < ours);
             meet_others(slot, k, a, b, c, d, &part_a, &part_b, &part_c, &part_d);
             search.spent += 1u;
         }
@@ -84,7 +93,6 @@ fn walk(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: ve
         merge(&sum_c, part_c);
         merge(&sum_d, part_d);
         search.spent += 12u;
-        workgroupBarrier();
         if ends { break; }
     }
     if walks {

@@ -2,9 +2,11 @@
 
 use std::borrow::Cow;
 
+use crate::error::Error;
 use crate::kernel::Scalar;
+use crate::links::MOST_BONDS;
 use crate::settings::{Key, Kind, Settings, Value};
-use crate::visit::Over;
+use crate::visit::{Law, Over};
 
 /// The settings that a shader's `Params` contains under the same names.
 pub fn params(settings: &Settings, names: &[&str]) -> Vec<(String, Scalar)> {
@@ -50,6 +52,33 @@ pub const SKIN: Key = Key::new(
     Value::Number(0.0),
     "over = \"list\" or \"auto\": the skin of the neighbour list beyond the range; 0: a fifth of the range, and chosen anew while it runs [length]",
 );
+
+/// Pairs of few bonds.
+pub const EXCLUDE: Key = Key::new(
+    "exclude",
+    Kind::Whole,
+    Value::Number(0.0),
+    "over = \"list\" or \"auto\": pairs up to so many bonds apart (springs, ropes and rods) are left out: 1, 1–2 pairs; 2, 1–3 pairs too; 3, 1–4 pairs too; 0: none",
+);
+
+/// A law without the pairs that settings leave out.
+pub fn excluding(settings: &Settings, law: Law) -> Law {
+    law.excluding(u32::try_from(settings.whole("exclude")).unwrap_or(u32::MAX))
+}
+
+/// Checks that a list is kept that can lack pairs.
+pub fn check_exclude(settings: &Settings) -> Result<(), Error> {
+    let bonds = settings.number("exclude");
+    let over = settings.text("over");
+    let why = if bonds > f64::from(MOST_BONDS) {
+        format!("exclude = {bonds}: pairs up to {MOST_BONDS} bonds apart can be left out; 3 is usual")
+    } else if bonds > 0.0 && !["list", "auto"].contains(&over) {
+        format!("exclude = {bonds} beside over = \"{over}\": only a kept list lacks pairs; set over = \"list\"")
+    } else {
+        return Ok(());
+    };
+    Err(Error::Setting { key: "exclude", why })
+}
 
 /// The seed of random numbers.
 pub const SEED: Key =

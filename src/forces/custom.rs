@@ -29,6 +29,8 @@ pub struct Custom {
     pub tables: Vec<Table>,
     /// The columns that it writes: see [`Law::into`].
     pub into: Vec<Name>,
+    /// Over a list: pairs up to so many bonds apart are left out; 0: none.
+    pub exclude: u32,
     /// Whether its particles are grains, as those of `contact`: it declares [their columns](crate::grains::columns), and torques turn them.
     pub grains: bool,
 }
@@ -39,7 +41,8 @@ impl Custom {
     pub fn new(name: &str, file: &str, wgsl: &str, over: Over) -> Self {
         let (name, wgsl, file) = (name.to_owned(), wgsl.to_owned(), file.to_owned());
         let (params, pairs, tables) = (Vec::new(), None, Vec::new());
-        Self { name, over, wgsl, file, params, pairs, tables, into: vec![ACCELERATION.name.into()], grains: false }
+        let into = vec![ACCELERATION.name.into()];
+        Self { name, over, wgsl, file, params, pairs, tables, into, exclude: 0, grains: false }
     }
 }
 
@@ -126,7 +129,7 @@ impl Component for Custom {
         let params = self.params.iter().map(|(name, value)| (name.clone(), scalar(value))).collect();
         let law = Law::own(&self.name, self.over, Source::law(self.file.clone(), self.wgsl.clone()), params);
         let (pairs, tables, into) = (self.pairs.clone(), self.tables.clone(), self.into.clone());
-        vec![Law { pairs, tables, into, ..law }]
+        vec![Law { pairs, tables, into, exclude: self.exclude, ..law }]
     }
 }
 

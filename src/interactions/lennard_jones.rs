@@ -3,8 +3,10 @@
 use std::borrow::Cow;
 
 use super::pair_potential::{Energy, Mixing, ONSET, PAIRS, RANGE, TRUNCATION, factor, law, length, rows, tails};
-use super::{Component, Law, SEE_NEAR, SKIN, over};
+use super::{Component, EXCLUDE, Law, SEE_NEAR, SKIN, check_exclude, excluding, over};
 use crate::component::Tail;
+use crate::error::Error;
+use crate::kernel::Bounds;
 use crate::settings::{Key, Kind, Settings, Value};
 
 /// The keys in a scene.
@@ -18,6 +20,7 @@ pub const KEYS: &[Key] = &[
     MIXING,
     SEE_NEAR,
     SKIN,
+    EXCLUDE,
 ];
 
 /// The coefficients of pairs that are not given.
@@ -72,9 +75,12 @@ impl Component for LennardJones {
     fn tails(&self) -> Vec<Tail> {
         tails(&self.0, &rows(&self.0, &["epsilon", "sigma"], mixing(&self.0)), energy)
     }
+    fn check(&self, _: &Bounds) -> Result<(), Error> {
+        check_exclude(&self.0)
+    }
     fn laws(&self) -> Vec<Law> {
         let names = ["epsilon", "sigma"];
         let file = ("lennard_jones", crate::shader!("interactions/lennard_jones.wgsl"));
-        vec![law(file, &self.0, over(&self.0, None), &names, &rows(&self.0, &names, mixing(&self.0)), energy)]
+        vec![excluding(&self.0, law(file, &self.0, over(&self.0, None), &names, &rows(&self.0, &names, mixing(&self.0)), energy))]
     }
 }

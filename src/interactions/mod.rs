@@ -5,7 +5,9 @@ mod ewald;
 mod ewald_split;
 mod pair_potential;
 
-use crate::component::keys::{EACH, SEE_NEAR, SEED, SKIN, is_nearer, over, over_within, params, seed};
+use crate::component::keys::{
+    EACH, EXCLUDE, SEE_NEAR, SEED, SKIN, check_exclude, excluding, is_nearer, over, over_within, params, seed,
+};
 use crate::component::kind::{SPECIES, species};
 use crate::component::{Component, Properties, Resolved, Stage, components, evaluate, numbered};
 use crate::constraints::speed_limit;

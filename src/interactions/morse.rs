@@ -1,8 +1,10 @@
 //! Morse's energy of a bond.
 
 use super::pair_potential::{Energy, ONSET, PAIRS, RANGE, TRUNCATION, factor, law, length, rows, tails};
-use super::{Component, Law, SEE_NEAR, SKIN, over};
+use super::{Component, EXCLUDE, Law, SEE_NEAR, SKIN, check_exclude, excluding, over};
 use crate::component::Tail;
+use crate::error::Error;
+use crate::kernel::Bounds;
 use crate::settings::{Key, Kind, Settings, Value};
 
 /// The keys in a scene.
@@ -16,6 +18,7 @@ pub const KEYS: &[Key] = &[
     Key::new("pairs", Kind::Pairs(COEFFICIENTS), Value::Pairs(Vec::new()), PAIRS),
     SEE_NEAR,
     SKIN,
+    EXCLUDE,
 ];
 
 /// What a scene may say of a pair of species.
@@ -51,8 +54,11 @@ impl Component for Morse {
     fn tails(&self) -> Vec<Tail> {
         tails(&self.0, &rows(&self.0, &NAMES, None), energy)
     }
+    fn check(&self, _: &Bounds) -> Result<(), Error> {
+        check_exclude(&self.0)
+    }
     fn laws(&self) -> Vec<Law> {
         let file = ("morse", crate::shader!("interactions/morse.wgsl"));
-        vec![law(file, &self.0, over(&self.0, None), &NAMES, &rows(&self.0, &NAMES, None), energy)]
+        vec![excluding(&self.0, law(file, &self.0, over(&self.0, None), &NAMES, &rows(&self.0, &NAMES, None), energy))]
     }
 }

@@ -1,8 +1,9 @@
 //! Soft spheres that may overlap.
 
 use super::pair_potential::{Energy, PAIRS, RANGE, Row, central, factor, rows};
-use super::{Component, Law, SEE_NEAR, SKIN, over, params};
-use crate::kernel::Scalar;
+use super::{Component, EXCLUDE, Law, SEE_NEAR, SKIN, check_exclude, excluding, over, params};
+use crate::error::Error;
+use crate::kernel::{Bounds, Scalar};
 use crate::settings::{Key, Kind, Settings, Value};
 use crate::visit::{PairRow, PairTable};
 
@@ -13,6 +14,7 @@ pub const KEYS: &[Key] = &[
     Key::new("pairs", Kind::Pairs(COEFFICIENTS), Value::Pairs(Vec::new()), PAIRS),
     SEE_NEAR,
     SKIN,
+    EXCLUDE,
 ];
 
 /// What a scene may say of a pair of species.
@@ -32,6 +34,9 @@ impl Soft {
 }
 
 impl Component for Soft {
+    fn check(&self, _: &Bounds) -> Result<(), Error> {
+        check_exclude(&self.0)
+    }
     fn laws(&self) -> Vec<Law> {
         let (rows, range) = (rows(&self.0, &["strength"], None), self.0.number("range"));
         let coefficients = |row: &Row| {
@@ -44,6 +49,6 @@ impl Component for Soft {
             let (a, left) = (row.values[0], 1.0 - r / range);
             Energy { value: 0.5 * a * range * left * left, slope: -a * left }
         });
-        vec![Law { pairs, ..law }]
+        vec![excluding(&self.0, Law { pairs, ..law })]
     }
 }

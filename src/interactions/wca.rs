@@ -3,8 +3,9 @@
 use std::f64::consts::SQRT_2;
 
 use super::pair_potential::{Energy, PAIRS, Row, central, factor, length, rows};
-use super::{Component, Law, SEE_NEAR, SKIN, lennard_jones, over};
-use crate::kernel::Scalar;
+use super::{Component, EXCLUDE, Law, SEE_NEAR, SKIN, check_exclude, excluding, lennard_jones, over};
+use crate::error::Error;
+use crate::kernel::{Bounds, Scalar};
 use crate::settings::{Key, Kind, Settings, Value};
 use crate::visit::{PairRow, PairTable};
 
@@ -16,6 +17,7 @@ pub const KEYS: &[Key] = &[
     lennard_jones::MIXING,
     SEE_NEAR,
     SKIN,
+    EXCLUDE,
 ];
 
 /// What a scene may say of a pair of species.
@@ -41,6 +43,9 @@ fn minimum(row: &Row) -> f64 {
 }
 
 impl Component for Wca {
+    fn check(&self, _: &Bounds) -> Result<(), Error> {
+        check_exclude(&self.0)
+    }
     fn laws(&self) -> Vec<Law> {
         let rows = rows(&self.0, &["epsilon", "sigma"], lennard_jones::mixing(&self.0));
         let range = rows.iter().map(minimum).fold(0.0, f64::max);
@@ -59,6 +64,6 @@ impl Component for Wca {
             let Energy { value, slope } = lennard_jones::energy(&row.values, r);
             Energy { value: value + row.values[0], slope }
         });
-        vec![Law { pairs, ..law }]
+        vec![excluding(&self.0, Law { pairs, ..law })]
     }
 }

@@ -9,6 +9,8 @@ pub struct ListShape {
     pub skin: f64,
     /// Words of history of each pair.
     pub words: u32,
+    /// Pairs up to so many bonds apart are left out; 0: none.
+    pub exclude: u32,
     /// Whether no law names a skin, so that a simulation chooses one while it runs.
     pub tuned: bool,
     /// The number of neighbours of one particle that there is room for: a multiple of four.

@@ -3,12 +3,15 @@
 
 mod chains;
 mod check;
+mod exclusions;
 mod half;
 mod network;
 mod rods;
 
 #[doc(hidden)]
 pub use chains::{Chains, MOST_RODS, Node};
+#[doc(hidden)]
+pub use exclusions::{Exclusions, MOST_BONDS};
 #[doc(hidden)]
 pub use half::{Corner, Half, WORDS};
 #[doc(hidden)]

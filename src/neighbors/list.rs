@@ -1,13 +1,15 @@
 //! The list of neighbours within range + skin: its fields, and its f64 reference.
 
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
 use glam::{DVec3, DVec4, Vec4};
 use rayon::prelude::*;
 
 use super::{Cells, Grid, checked};
 use crate::error::Error;
-use crate::kernel::{Bounds, Host, ListShape, POSITION, Problem, Side, World};
+use crate::kernel::{Bounds, Host, ListShape, POSITION, Problem, Side, Table, World};
+use crate::links::Exclusions;
 
 /// Rows of neighbours, four per element: see `shaders/neighbors/list_search.wgsl`.
 pub const LIST: &str = "list";
@@ -20,6 +22,10 @@ pub const LIST_STATE_WORDS: usize = 4;
 pub const LIST_ORIGIN: &str = "list_origin";
 /// History of pairs, word by word: see `shaders/neighbors/history.wgsl`.
 pub const HISTORY: &str = "history";
+/// The start of the row of each particle in the table of those that the list leaves out.
+pub const EXCLUDED_START: &str = "excluded_start";
+/// That table.
+pub const EXCLUDED: &str = "excluded";
 /// No particle.
 pub(crate) const NONE: u32 = u32::MAX;
 
@@ -31,12 +37,26 @@ const ROUNDING: f64 = 1.0 / 1_048_576.0;
 /// The part of a range that rounding may add to it: its square is a sum of three, each rounded three times.
 const SQUARE: f64 = 1.0 / 65_536.0;
 
+/// The pairs that the list of a host leaves out: those of all laws over it.
+///
+/// # Errors
+/// When a table is missing.
+pub fn exclusions(host: &Host) -> Result<Exclusions, Error> {
+    if !host.contains(EXCLUDED_START) {
+        return Ok(Exclusions::default());
+    }
+    let [start, others] = [EXCLUDED_START, EXCLUDED].map(|name| host.reading::<u32>(name).map(|words| words.to_vec()));
+    Ok(Exclusions { start: Arc::new(start?), others: Arc::new(others?) })
+}
+
 /// A list of neighbours in a problem.
 pub struct List {
     /// Its reach, and its capacity.
     pub shape: ListShape,
     /// The grid with which it is built.
     pub grid: Grid,
+    /// Pairs that it leaves out.
+    pub exclusions: Option<Exclusions>,
 }
 
 /// A length in single precision, as on the device: what is computed from given numbers has more digits than they had.
@@ -62,15 +82,29 @@ impl List {
         checked(shape.reach())?;
         let rounding = ROUNDING * coordinate(&problem.bounds);
         let grid = Grid::new(shape.reach() * (1.0 + WIDER) + rounding, None, problem)?;
-        Ok(Self { shape, grid: Grid { name: format!("the list {}", shown(shape.reach())), ..grid } })
+        let grid = Grid { name: format!("the list {}", shown(shape.reach())), ..grid };
+        Ok(Self { shape, grid, exclusions: None })
+    }
+    /// The same without the pairs that bonds of a problem leave out.
+    #[must_use]
+    pub fn excluding(self, problem: &Problem) -> Self {
+        let all = || Exclusions::new(&problem.network, self.shape.exclude, problem.capacity);
+        Self { exclusions: (self.shape.exclude > 0).then(all), ..self }
+    }
+    /// The tables of the pairs that it leaves out, which references of laws read, too.
+    #[must_use]
+    pub fn tables(&self) -> Vec<Table> {
+        let all = self.exclusions.iter().flat_map(|all| [(EXCLUDED_START, &all.start), (EXCLUDED, &all.others)]);
+        all.map(|(name, words)| (name.into(), words.clone())).collect()
     }
     /// Its name in a plan.
     #[must_use]
     pub fn title(&self) -> String {
-        let ListShape { range, skin, words, capacity, .. } = self.shape;
+        let ListShape { range, skin, words, capacity, exclude, .. } = self.shape;
         let (range, skin) = (shown(range), shown(skin));
         let words = if words > 0 { format!(" WORDS={words}") } else { String::new() };
-        format!("list RANGE={range} SKIN={skin} CAPACITY={capacity}{words}")
+        let excluded = if exclude > 0 { format!(" EXCLUDE={exclude}") } else { String::new() };
+        format!("list RANGE={range} SKIN={skin} CAPACITY={capacity}{words}{excluded}")
     }
     /// The distance that a particle may move before the list must be rebuilt \[length\].
     #[must_use]
@@ -161,10 +195,18 @@ impl List {
         for k in 0..count {
             let (id, row) = order.get(k).zip(rows.get(k)).map_or((NONE, &[][..]), |(id, row)| (*id, row));
             // A row without enough room is empty: the run ends with an error that names its particle.
-            let kept = if row.len() > self.shape.capacity as usize { 0 } else { row.len() };
+            let fits = row.len() <= self.shape.capacity as usize;
+            let excluded =
+                |other: u32| self.exclusions.as_ref().is_some_and(|all| all.has(id as usize, other as usize));
+            let listed = |other: &&u32| fits && !excluded(**other);
+            let kept: Vec<u32> = row.iter().filter(listed).copied().collect();
             let number = |n: usize| u32::try_from(n).unwrap_or(u32::MAX);
-            list[4 * k..4 * k + 4].copy_from_slice(&[number(kept), id, 0, 0]);
-            for (n, other) in row[..kept].iter().enumerate() {
+            list[4 * k..4 * k + 4].copy_from_slice(&[number(kept.len()), id, 0, 0]);
+            // On the device those that leave the row have stood in it, too, and what is behind its end stays.
+            for (n, other) in row.iter().enumerate().filter(|_| fits) {
+                list[Self::place(k, n, stride)] = *other;
+            }
+            for (n, other) in kept.iter().enumerate() {
                 list[Self::place(k, n, stride)] = *other;
                 let pair = known.get(&[id, *other]);
                 for w in 0..slots {
@@ -173,7 +215,7 @@ impl List {
                 }
             }
             *longest = number(row.len()).max(*longest);
-            if row.len() > kept {
+            if !fits {
                 *full = (!id).max(*full);
             }
             let side = if self.grid.elastic { bounds.period().x } else { 1.0 };

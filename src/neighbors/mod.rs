@@ -8,7 +8,7 @@ mod list;
 pub use cells::Cells;
 pub use grid::{Grid, checked};
 pub(crate) use list::NONE;
-pub use list::{HISTORY, LIST, LIST_ORIGIN, LIST_STATE, LIST_STATE_WORDS, List};
+pub use list::{EXCLUDED, EXCLUDED_START, HISTORY, LIST, LIST_ORIGIN, LIST_STATE, LIST_STATE_WORDS, List, exclusions};
 
 use crate::kernel::{Field, Name};
 

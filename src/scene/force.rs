@@ -7,6 +7,7 @@ use crate::forces::{self, Component, Custom, Over};
 use crate::kernel::Bounds;
 use crate::motion::Motion;
 use crate::settings::{Kind, Settings, Value};
+use crate::state::State;
 use crate::tree::Opening;
 
 use super::files::Files;
@@ -24,6 +25,7 @@ pub(super) const OWN: &[&str] = &[
     "over",
     "range",
     "skin",
+    "exclude",
     "slots",
     "neighbors",
     "theta",
@@ -64,6 +66,7 @@ fn read_own(table: &Table<'_>, wgsl: &Entry, files: &Files, report: &mut Report)
     let pairs = table.get("pairs").and_then(|entry| pairs::of_any_names(&entry.node, report));
     let tables = table.get("tables").map_or_else(Vec::new, |entry| tables(entry, report));
     let into = table.get("into").map_or_else(|| vec!["acceleration".into()], |entry| into(entry, report));
+    let exclude = optional(table, "exclude", Kind::Whole, report).flatten().unwrap_or(0.0);
     let grains = table.get("grains").is_some_and(|entry| flag(entry, report));
     let name = value::text(&wgsl.node, "wgsl", "the name of a file", report)?;
     let text = files
@@ -83,6 +86,12 @@ fn read_own(table: &Table<'_>, wgsl: &Entry, files: &Files, report: &mut Report)
                     pairs,
                     tables,
                     into,
+                    #[expect(
+                        clippy::cast_possible_truncation,
+                        clippy::cast_sign_loss,
+                        reason = "too many are refused"
+                    )]
+                    exclude: exclude as u32,
                     grains,
                 }),
                 path,
@@ -95,9 +104,19 @@ fn read_own(table: &Table<'_>, wgsl: &Entry, files: &Files, report: &mut Report)
     }
 }
 
-/// Remarks on forces that are given the skin of a list and keep none.
-pub(super) fn unused<'a>(sections: &'a [(&'static str, Table<'a>)]) -> Vec<String> {
+/// Remarks on forces that are given the skin of a list and keep none, or leave out bonded pairs where there are no bonds.
+pub(super) fn unused<'a>(sections: &'a [(&'static str, Table<'a>)], particles: &State) -> Vec<String> {
     let tables = sections.iter().filter(|(name, _)| *name == "force").map(|(_, table)| table);
+    let links = particles.all_links();
+    let bonded = !(links.springs.is_empty() && links.rods.is_empty());
+    let leaves_out = |table: &&Table<'a>| {
+        let bonds = optional(table, "exclude", Kind::Whole, &mut Report::default()).flatten();
+        !bonded && bonds.is_some_and(|bonds| bonds > 0.0)
+    };
+    let excludes = tables.clone().filter(leaves_out);
+    let no_bonds = excludes.map(|table| {
+        format!("{} has `exclude`, and no particle has a spring, a rope or a rod: no pair is left out", table.name)
+    });
     let remark = |table: &Table<'a>| {
         let kind = value::text(&table.get("kind")?.node, "kind", "", &mut Report::default()).and_then(forces::entry)?;
         let settings = table.settings(kind.keys, &["kind"], &mut Report::default());
@@ -110,7 +129,7 @@ pub(super) fn unused<'a>(sections: &'a [(&'static str, Table<'a>)]) -> Vec<Strin
             table.name
         ))
     };
-    tables.filter_map(remark).collect()
+    tables.filter_map(remark).chain(no_bonds).collect()
 }
 
 /// Reports settings of a force that are invalid together, or in such a box, at the key concerned, or else at its table. Returns whether
@@ -143,8 +162,12 @@ fn over(table: &Table<'_>, report: &mut Report) -> Option<Over> {
         "tree" | "auto" => Some("theta"),
         _ => None,
     };
-    for given in ["range", "skin", "slots", "neighbors", "theta"].into_iter().filter_map(|key| table.get(key)) {
-        let kept = word == "list" && ["skin", "slots"].contains(&given.key.as_str()) || faster && given.key == "skin";
+    for given in
+        ["range", "skin", "slots", "exclude", "neighbors", "theta"].into_iter().filter_map(|key| table.get(key))
+    {
+        let key = given.key.as_str();
+        let kept = word == "list" && ["skin", "slots", "exclude"].contains(&key)
+            || faster && ["skin", "exclude"].contains(&key);
         if wanted != Some(given.key.as_str()) && !kept {
             let fault = Fault::at(&given.place, format!("a law over \"{word}\" does not use `{}`", given.key));
             report.push(fault.label("remove it, or change `over`"));
@@ -301,6 +324,9 @@ impl Chosen {
                     law.params.iter().map(|(k, v)| format!("{} = {}", resolved::bare(k), resolved::value(v))).collect();
                 out.line("params", &format!("{{ {} }}", params.join(", ")));
                 own_tables(law, out);
+                if law.exclude > 0 {
+                    out.line("exclude", &law.exclude.to_string());
+                }
                 if law.grains {
                     out.line("grains", "true");
                 }

@@ -375,8 +375,11 @@ fn read(sections: &[(&'static str, Table<'_>)], files: &Files, options: &Options
     }
 
     let remarks = simulation.remark.iter().cloned().chain(fluid::contradictions(sections));
-    let remarks =
-        remarks.chain(force::unused(sections)).chain(render::styles::remark(&picture)).chain(of_plan).collect();
+    let remarks = remarks
+        .chain(force::unused(sections, &particles))
+        .chain(render::styles::remark(&picture))
+        .chain(of_plan)
+        .collect();
     let (measures, of_measures): (Vec<_>, Vec<_>) = measures.into_iter().unzip();
     let mut scene = Scene {
         name: String::new(),

@@ -102,6 +102,7 @@ pub(super) const FORCE: &[Own] = &[
         "a fifth of the range",
         "wgsl over list: the skin of its list beyond the range; without one it is chosen anew while it runs [length]",
     ),
+    own("exclude", "0", "wgsl over list or auto: pairs up to so many bonds apart are left out, as in lennard_jones"),
     own("slots", "0", "wgsl over list: history variables of each pair, which persist from step to step"),
     own("neighbors", "must be given", "wgsl over nearest: the number k of neighbours"),
     own("theta", "must be given", "wgsl over tree and auto: the opening angle, at most 1"),

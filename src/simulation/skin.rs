@@ -130,7 +130,7 @@ mod tests {
     use super::*;
 
     fn shape(skin: f64) -> ListShape {
-        ListShape { range: 2.5, skin, words: 0, tuned: true, capacity: 4 }
+        ListShape { range: 2.5, skin, words: 0, exclude: 0, tuned: true, capacity: 4 }
     }
     fn best(skin: f64, evaluations: f64, dimensions: f64) -> Option<f64> {
         Seen { evaluations, dimensions }.best(shape(skin))

@@ -287,6 +287,8 @@ typed! {
         over: Cow<'static, str>,
         /// Over = "list" or "auto": the skin of the neighbour list beyond the range; 0: a fifth of the range, and chosen anew while it runs \[length\].
         skin: f64,
+        /// Over = "list" or "auto": pairs up to so many bonds apart (springs, ropes and rods) are left out: 1, 1–2 pairs; 2, 1–3 pairs too; 3, 1–4 pairs too; 0: none.
+        exclude: u64,
     }
     /// Atoms that only repel each other: Lennard-Jones up to its minimum (Weeks, Chandler & Andersen 1971).
     Wca "wca" wca() {
@@ -302,6 +304,8 @@ typed! {
         over: Cow<'static, str>,
         /// Over = "list" or "auto": the skin of the neighbour list beyond the range; 0: a fifth of the range, and chosen anew while it runs \[length\].
         skin: f64,
+        /// Over = "list" or "auto": pairs up to so many bonds apart (springs, ropes and rods) are left out: 1, 1–2 pairs; 2, 1–3 pairs too; 3, 1–4 pairs too; 0: none.
+        exclude: u64,
     }
     /// Morse's energy of a bond, between all pairs in range, by pair of species (Morse 1929).
     Morse "morse" morse(range: f64) {
@@ -323,6 +327,8 @@ typed! {
         over: Cow<'static, str>,
         /// Over = "list" or "auto": the skin of the neighbour list beyond the range; 0: a fifth of the range, and chosen anew while it runs \[length\].
         skin: f64,
+        /// Over = "list" or "auto": pairs up to so many bonds apart (springs, ropes and rods) are left out: 1, 1–2 pairs; 2, 1–3 pairs too; 3, 1–4 pairs too; 0: none.
+        exclude: u64,
     }
     /// Screened charges, by pair of species (Debye & Hückel 1923, Yukawa 1935).
     Yukawa "yukawa" yukawa(range: f64) {
@@ -342,6 +348,8 @@ typed! {
         over: Cow<'static, str>,
         /// Over = "list" or "auto": the skin of the neighbour list beyond the range; 0: a fifth of the range, and chosen anew while it runs \[length\].
         skin: f64,
+        /// Over = "list" or "auto": pairs up to so many bonds apart (springs, ropes and rods) are left out: 1, 1–2 pairs; 2, 1–3 pairs too; 3, 1–4 pairs too; 0: none.
+        exclude: u64,
     }
     /// Soft spheres that may overlap, by pair of species (Groot & Warren 1997).
     Soft "soft" soft(range: f64) {
@@ -355,6 +363,8 @@ typed! {
         over: Cow<'static, str>,
         /// Over = "list" or "auto": the skin of the neighbour list beyond the range; 0: a fifth of the range, and chosen anew while it runs \[length\].
         skin: f64,
+        /// Over = "list" or "auto": pairs up to so many bonds apart (springs, ropes and rods) are left out: 1, 1–2 pairs; 2, 1–3 pairs too; 3, 1–4 pairs too; 0: none.
+        exclude: u64,
     }
     /// Granular contacts of spheres: normal springs and dashpots, friction with history, torques (Cundall & Strack 1979).
     Contact "contact" contact(range: f64) {

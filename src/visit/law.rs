@@ -57,6 +57,8 @@ pub struct Law {
     pub beside: Vec<Source>,
     /// The reference of the virial of its pairs, links or joints; `None` where there is none.
     pub virial: Option<ByTables>,
+    /// Pairs up to so many bonds apart are not evaluated, over a list; 0: all are.
+    pub exclude: u32,
     /// The number of laws of its name before it, which have tables of the same names: see [`Law::after`].
     pub earlier: usize,
 }
@@ -107,6 +109,7 @@ impl Law {
             outlined: None,
             beside: Vec::new(),
             virial: None,
+            exclude: 0,
             earlier: 0,
         }
     }
@@ -293,6 +296,7 @@ impl Law {
     pub(super) fn visiting(self, problem: &Problem) -> Result<Kernel, Error> {
         let over = self.chosen(problem);
         two_words::check(&self, over, problem)?;
+        self.check_exclusions(problem)?;
         let kernel = match over {
             Over::Each => each::kernel(self, problem),
             Over::Pairs | Over::Within { .. } => pairs::kernel(self, problem),
@@ -330,7 +334,8 @@ impl Law {
         match self.over {
             // At half a box the nearest image jumps, and no group can be evaluated as one there.
             Over::Tree { auto: true, .. } if problem.bounds.has(Side::Periodic) && !self.distant.images => Over::Pairs,
-            over => over.chosen(problem).faster(self.loads(), problem),
+            Over::Tree { .. } => self.over.chosen(problem),
+            _ => self.faster(problem),
         }
     }
     /// What it loads of its neighbours.
@@ -343,7 +348,19 @@ impl Law {
     }
     /// The same law with [`Over::Auto`] resolved: over the cell list or the kept list.
     pub(super) fn settled(&self, problem: &Problem) -> Self {
-        Self { over: self.over.faster(self.loads(), problem), ..self.clone() }
+        Self { over: self.faster(problem), ..self.clone() }
+    }
+    /// Its visit with [`Over::Auto`] resolved; only a list can lack pairs.
+    pub(super) fn faster(&self, problem: &Problem) -> Over {
+        match self.over {
+            Over::Auto { range, skin } if self.exclude > 0 => Over::List { range, skin, slots: 0 },
+            over => over.faster(self.loads(), problem),
+        }
+    }
+    /// The same law without pairs up to so many bonds apart (1–2, 1–3, 1–4 pairs).
+    #[must_use]
+    pub fn excluding(self, bonds: u32) -> Self {
+        Self { exclude: bonds, ..self }
     }
     /// The tree that it walks, if any.
     #[must_use]

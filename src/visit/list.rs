@@ -9,6 +9,7 @@ pub use reference::{Memory, remembering};
 use super::{Law, Over};
 use crate::error::Error;
 use crate::kernel::{ALARM, ALARM_WORDS, Kernel, ListShape, Pass, Problem, Shader, Source, Threads};
+use crate::links::MOST_BONDS;
 use crate::neighbors::{HISTORY, LIST, List};
 
 /// Rows of one dispatch, at most. It is an integer of workgroups.
@@ -28,15 +29,17 @@ pub fn shared(laws: &[Law], problem: &Problem) -> Result<Option<ListShape>, Erro
     let mut shape: Option<ListShape> = None;
     let mut reach = 0.0_f64;
     // Laws that name no skin follow those that do.
-    let given = laws.iter().filter_map(|law| match law.over.faster(law.loads(), problem) {
+    let given = laws.iter().filter_map(|law| match law.faster(problem) {
         Over::List { skin, .. } => skin,
         _ => None,
     });
     let given = given.reduce(f64::max).or(problem.skin);
     for law in laws {
-        let Over::List { range, skin, slots } = law.over.faster(law.loads(), problem) else { continue };
+        let Over::List { range, skin, slots } = law.faster(problem) else { continue };
+        law.check_exclusions(problem)?;
         let (tuned, usual) = (skin.is_none(), given.unwrap_or(SKIN * range));
-        let own = ListShape { range, skin: skin.unwrap_or(usual), tuned, words: slots, capacity: 4 };
+        let own =
+            ListShape { range, skin: skin.unwrap_or(usual), exclude: law.exclude, tuned, words: slots, capacity: 4 };
         // Errors of a law's own list are reported for that law.
         let own = List::new(own, problem)?.shape;
         reach = reach.max(own.reach());
@@ -48,14 +51,55 @@ pub fn shared(laws: &[Law], problem: &Problem) -> Result<Option<ListShape>, Erro
                 law.name
             )));
         }
+        if known.exclude != law.exclude {
+            return Err(Error::Scene(format!(
+                "`{}` has exclude = {}, and another law over the same list has {}: the list lacks pairs of so few bonds for all of them; give \
+                 them the same `exclude`, or search neighbours of one of them over = \"near\", which leaves no pair out",
+                law.name, law.exclude, known.exclude
+            )));
+        }
         let (range, words, tuned) = (known.range.max(range), known.words.max(slots), known.tuned && tuned);
         shape = Some(ListShape { range, words, tuned, ..known });
+    }
+    // References of a law over `auto` cannot tell which of both searches it has.
+    let whole = |law: &&Law| matches!(law.over, Over::Auto { .. }) && !matches!(law.faster(problem), Over::List { .. });
+    if let (Some(shape), Some(law)) = (shape.filter(|shape| shape.exclude > 0), laws.iter().find(whole)) {
+        return Err(Error::Scene(format!(
+            "`{}` has over = \"auto\" and exclude = 0 beside a list that leaves out pairs up to {} bonds apart: set over = \"near\", or the \
+             same `exclude`",
+            law.name, shape.exclude
+        )));
     }
     let shape = shape.map(|shape| ListShape { skin: reach - shape.range, ..shape });
     Ok(shape.map(|shape| shape.with_room(UNCOUNTED, problem.capacity)))
 }
 
 impl Law {
+    /// Checks that pairs of few bonds can be left out.
+    pub(super) fn check_exclusions(&self, problem: &Problem) -> Result<(), Error> {
+        let (name, bonds) = (&self.name, self.exclude);
+        if bonds == 0 {
+            return Ok(());
+        }
+        if bonds > MOST_BONDS {
+            return Err(Error::Scene(format!(
+                "`{name}` has exclude = {bonds}: pairs up to {MOST_BONDS} bonds apart can be left out, and 3 is usual"
+            )));
+        }
+        if !matches!(self.faster(problem), Over::List { .. }) {
+            return Err(Error::Scene(format!(
+                "`{name}` has exclude = {bonds}, and over = \"{}\": only a list lacks pairs that are left out; set over = \"list\"",
+                self.over.name()
+            )));
+        }
+        if problem.breaks {
+            return Err(Error::Scene(format!(
+                "`{name}` has exclude = {bonds}, and springs of the scene may break: the list would go on without pairs that are bonded no \
+                 more; set exclude = 0, or remove what breaks them"
+            )));
+        }
+        Ok(())
+    }
     /// The file with the data of a neighbour on the list.
     fn listed(&self) -> Result<Source, Error> {
         let Some(search) = &self.search else { return Ok(crate::shader!("visit/list_neighbor.wgsl")) };
@@ -157,6 +201,7 @@ pub fn kernel(law: Law, range: f64, slots: u32, problem: &Problem) -> Result<Ker
         first += rows;
     }
     sizes.extend([(LIST.into(), list.elements(problem.capacity)), (HISTORY.into(), list.words(problem.capacity))]);
+    let tables = tables.into_iter().chain(list.excluding(problem).tables()).collect();
     let mut kernel = Kernel { name: law.name, passes, reference: law.reference, sizes, scratch: Vec::new(), tables };
     law.search.iter().for_each(|search| search.bind(&mut kernel));
     Ok(kernel)

@@ -10,7 +10,8 @@ use super::tied::{Tables, Tied, row};
 use super::{Outcome, Over, Search, result};
 use crate::error::Error;
 use crate::kernel::{ACCELERATION, Bounds, Host, Reference, World};
-use crate::links::{Corner, Half};
+use crate::links::{Corner, Exclusions, Half};
+use crate::neighbors::exclusions;
 
 /// Particles that a thread takes at least: fewer are done before another thread is awake.
 const PIECE: usize = 16;
@@ -72,6 +73,11 @@ pub fn searching<S: Default>(
     meeting(over, Some(search), gather, finish)
 }
 
+/// The pairs that a law leaves out: those that the list lacks, where it is over that.
+pub(super) fn left_out(host: &Host, over: Over) -> Result<Exclusions, Error> {
+    if matches!(over, Over::List { .. } | Over::Auto { .. }) { exclusions(host) } else { Ok(Exclusions::default()) }
+}
+
 fn meeting<S: Default>(
     over: Over,
     search: Option<Search>,
@@ -84,6 +90,7 @@ fn meeting<S: Default>(
             view.extend(search.by_particle(host)?);
         }
         let (bodies, world) = (view.particles(), host.world());
+        let left_out = left_out(host, over)?;
         let outcome = |me: &Particle| {
             let mut sum = S::default();
             let mut meet = |you: &Particle| {
@@ -97,6 +104,7 @@ fn meeting<S: Default>(
                 return None;
             }
             let others = bodies.iter().filter(|you| you.index != me.index && (you.is_active() || !in_grid));
+            let others = others.filter(|you| !left_out.has(me.index, you.index));
             match (over, over.range()) {
                 (Over::Nearest { count }, _) => {
                     nearest(me, others, count as usize, &world.bounds).into_iter().for_each(&mut meet);

@@ -100,7 +100,7 @@ fn rounds(tree: &Tree, machine: &Machine) -> u32 {
     // each holds eight of the next, and evaluate two leaves at once; a lane alone looks at a node, or at a body.
     let (walk, search) = if machine.subgroup == 8 {
         let looks = leaves / 7 + 10;
-        (5 * looks + leaves / 2 + 12 * (leaves / 64 + 2) + 2 * group, (2 * group + 16) * looks)
+        (5 * looks + 2 * leaves + 12 * (leaves / 64 + 2) + 2 * group, (2 * group + 16) * looks)
     } else {
         let nodes = 2 * leaves + 32;
         (2 * (nodes + u64::from(LEAF) * leaves) + group, group * nodes)

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use glam::{DVec3, DVec4, Vec4};
 use rayon::prelude::*;
 
-use super::reference::ByTables;
+use super::reference::{ByTables, left_out};
 use super::tied::row;
 use super::{Law, Over, Particle, Tables, Tied, View};
 use crate::error::Error;
@@ -149,13 +149,15 @@ pub fn reference<S: Default>(
     let reference: Reference = Arc::new(move |host| {
         let view = View::of(host)?;
         let (bodies, world) = (view.particles(), host.world());
+        let left_out = left_out(host, over)?;
         let mut virial = host.write(VIRIAL)?;
         virial.par_chunks_mut(2).zip(&bodies).for_each(|(result, me)| {
             let (mut whole, mut parts) = (S::default(), Parts::default());
             let force = |sum: &S| me.mass * (finish(me, sum, &world) - finish(me, &S::default(), &world)).truncate();
             for you in bodies.iter().filter(|you| you.index != me.index && me.is_active() && you.is_active()) {
                 let way = you.position - me.position;
-                if over.range().is_some_and(|range| !world.bounds.within(way, range)) {
+                let is_far = over.range().is_some_and(|range| !world.bounds.within(way, range));
+                if is_far || left_out.has(me.index, you.index) {
                     continue;
                 }
                 let (mut pair, r) = (S::default(), world.bounds.shortest(way));

@@ -5,6 +5,7 @@
 use glam::{DVec3, DVec4, Vec4};
 use motes::forces::{Law, Over, Problem};
 use motes::kernel::{ALARM, Backend, LIFE, ListShape, Machine, Plan, Source, World};
+use motes::links::{Link, Links};
 use motes::neighbors::{LIST_STATE, List};
 use motes::{Bounds, Gpu, POSITION, Side, Simulation};
 
@@ -86,6 +87,8 @@ struct Place<'a> {
     has_inactive: bool,
     capacity: u32,
     slots: u32,
+    /// Pairs up to so many bonds apart are left out.
+    exclude: u32,
     /// How much longer the sides of the box are after the list was built, where they may change.
     stretch: Option<f64>,
 }
@@ -132,8 +135,11 @@ impl Place<'_> {
         let plane = |x: DVec3| if flat { x.with_z(0.0) } else { x };
         let place = |x: DVec3| plane((self.bounds.low + side * (0.5 + 0.5 * x)).as_vec3().as_dvec3());
         let places: Vec<DVec3> = (0..count).map(|_| place(random.vector())).collect();
-        let shape = ListShape { range: RANGE, skin: SKIN, tuned: false, words: self.slots, capacity: self.capacity };
+        let (words, exclude, capacity) = (self.slots, self.exclude, self.capacity);
+        let shape = ListShape { range: RANGE, skin: SKIN, tuned: false, words, exclude, capacity };
         let problem = Problem::new(count as u32, self.machine).at(&places, self.bounds);
+        let links = if exclude > 0 { bonds(count as u32) } else { Links::default() };
+        let problem = problem.tied(&links, &[]);
         let elastic = self.stretch.map(|part| part.min(0.9));
         let problem = problem.with_life(&[], &[], self.has_inactive).listed(Some(shape)).stretched(elastic);
         let plan = self.plan(&problem);
@@ -194,6 +200,13 @@ impl Place<'_> {
     }
 }
 
+/// Most of the particles are in chains, some of them in two; the last has none.
+fn bonds(count: u32) -> Links {
+    let bond = |ends| Link { ends, rest: 0.1, stiffness: 1.0, damping: 0.0, rope: false };
+    let steps = [1, 7, 30].into_iter().flat_map(|step| (0..count - step - 1).step_by(2).map(move |i| [i, i + step]));
+    Links { springs: steps.map(bond).collect(), ..Links::default() }
+}
+
 /// The list is to be built, for the first time.
 fn begin(simulation: &mut Simulation<Gpu>) {
     simulation.backend().write_bytes(LIST_STATE, 0, &[0; 16]).expect("a state");
@@ -247,6 +260,7 @@ pub fn all(shared: &Shared, stages: &mut Vec<Stage>) {
         has_inactive,
         capacity,
         slots: 0,
+        exclude: 0,
         stretch: None,
     };
     let lanes = place(LANES, periodic, false, ROOM);
@@ -265,6 +279,9 @@ pub fn all(shared: &Shared, stages: &mut Vec<Stage>) {
     stages.push(steps(8).stage(Since::Little));
     stages.extend([Since::Little, Since::Much].map(|since| steps(9).stage(since)));
     stages.push(Place { slots: 2, ..place(LANES, periodic, false, ROOM) }.stage(Since::Much));
+    // Bonds that leave pairs out.
+    stages.push(Place { exclude: 3, ..place(LANES, periodic, false, ROOM) }.stage(Since::Much));
+    stages.push(Place { exclude: 2, ..steps(2) }.stage(Since::Spawned));
     // In a box that shrinks and grows, little and so much that no pair is sure to be listed.
     let stretched = |part, room| Place { stretch: Some(part), ..place(LANES, periodic, false, room) };
     // What shrinks is denser, by the cube of that.

@@ -26,6 +26,8 @@ const DEEP: &str =
     "only trees of more than 131 072 bodies wait in a second word; tests/engine/tree/complete.rs counts one";
 const BEHIND: &str = "nothing is delivered to what is behind the last";
 const SET_FIRST: &str = "it is set before it is looked at";
+const WRITTEN_OVER: &str = "what is written behind the end of a list is written over";
+const WHOLE_LEAVES: &str = "a group is of whole leaves";
 
 pub const EQUIVALENT: &[Equivalent] = &[
     same("tree_geometric", "fn demand_of", "0.0", "1.0", "what a group demands is not read"),
@@ -40,20 +42,21 @@ pub const EQUIVALENT: &[Equivalent] = &[
     same("tree_tile", "if lane == 0u {", "==", "!=", ALL_KNOW),
     same("tree_tile", "if lane == 0u {", "0u", "1u", ALL_KNOW),
     same("tree_look", "const FAR", "128u", "129u", "sums are divided elsewhere, which rounding may show").sometimes(),
-    same("tree_look", "var<workgroup> list", "2u", "3u", ROOM),
+    same("tree_look", "const ROWS", "2u", "3u", ROOM),
+    same("tree_look", "s.leaves < NEAR && s.spent", "<", "<=", "sums are divided elsewhere, which rounding may show")
+        .sometimes(),
+    same("tree_look", "if turn < countOneBits(fars)", "<", "<=", WRITTEN_OVER),
+    same("tree_look", "if leaf && rest != 0u", "&&", "||", WRITTEN_OVER),
+    same("tree_subgroup", "let n = subgroupMax(", "0u", "1u", "a node that is listed has a higher number"),
+    same("tree_subgroup", "var leaf = 0u;", "0u", "1u", SET_FIRST),
+    same("tree_subgroup", "if i >= ours && (i - ours) % LEAF", "-", "+", WHOLE_LEAVES),
+    same("tree_subgroup", "let slot = select(leaf * LEAF", "-", "+", WHOLE_LEAVES),
     same("tree_look", "let also =", "-", "+", "what holds the group is nearer than its own side, or it is the root"),
     same("tree_look", "s.waits = (s.waits << ", "24u", "25u", DEEP),
     same("tree_look", "s.waits = (s.waits >> ", "24u", "25u", DEEP),
     same("tree_look", "s.waits = (s.waits >> ", "0u", "1u", "a bit that comes in from above is behind what waits"),
     same("tree_look", "let node_m =", "1u", "2u", "it only is a place to read from"),
     same("tree_look", "let node_n =", "1u", "2u", "it only is a place to read from"),
-    same(
-        "tree_look",
-        "if (asks || !doubtful) && (far ||",
-        "&&",
-        "||",
-        "what is written behind the end of a list is written over",
-    ),
     same("tree_tile", "var far = 0u;", "0u", "1u", "fields and lists begin with zeros; node 0 is no particle"),
     same("tree_tile", "while top > 0u", ">", ">=", "it turns idly until the driver ends the loop").sometimes(),
     same("tree_alone", "var slot = 0u;", "0u", "1u", SET_FIRST),

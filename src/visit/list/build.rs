@@ -36,16 +36,18 @@ pub fn is_list(kernel: &Kernel) -> bool {
 /// # Errors
 /// When a shader does not compile, or a field does not fit.
 pub fn kernel(list: List, problem: &Problem) -> Result<Kernel, Error> {
+    let list = list.excluding(problem);
     let grid = list.grid.kernel(problem, false)?;
     let count = problem.capacity;
     let search = search(&list, problem)?;
     let order = order(&list, problem)?;
     let mut builds: Vec<Pass> = grid.passes.into_iter().chain(search).collect();
+    let exclude = list.exclusions.is_some().then(|| exclude(&list, problem)).transpose()?;
     if list.shape.words > 0 {
         let [save, fit] = history(&list, problem)?;
-        builds.extend([save, order, fit]);
+        builds.extend([Some(save), Some(order), exclude, Some(fit)].into_iter().flatten());
     } else {
-        builds.push(order);
+        builds.extend([Some(order), exclude].into_iter().flatten());
     }
     let mut all = Vec::new();
     for (pass, word) in builds.iter_mut().zip((0..).step_by(EACH as usize)) {
@@ -73,6 +75,11 @@ pub fn kernel(list: List, problem: &Problem) -> Result<Kernel, Error> {
         (HISTORY.into(), list.words(count)),
         (HISTORY_BEFORE.into(), list.words(count) / 2),
     ]);
+    let mut tables: Vec<(Name, Arc<Vec<u32>>)> = vec![(ALL.into(), Arc::new(all))];
+    for (name, words) in list.tables() {
+        sizes.push((name.clone(), words.len() as u64));
+        tables.push((name, words));
+    }
     let mut scratch = grid.scratch;
     scratch.extend([starts, ids, places]);
     scratch.extend([FOUND, GO, BEFORE, ROW_BEFORE, HISTORY_BEFORE].map(Name::from));
@@ -82,7 +89,7 @@ pub fn kernel(list: List, problem: &Problem) -> Result<Kernel, Error> {
         reference: Some(Arc::new(move |host: &Host| list.update(host).map(|_| ()))),
         sizes,
         scratch,
-        tables: vec![(ALL.into(), Arc::new(all))],
+        tables,
     })
 }
 
@@ -145,6 +152,14 @@ fn history(list: &List, problem: &Problem) -> Result<[Pass; 2], Error> {
     };
     let save = pass(crate::shader!("neighbors/list_save.wgsl"), list.shape.capacity / 4)?;
     Ok([save, pass(crate::shader!("neighbors/list_match.wgsl"), 1)?])
+}
+
+/// Takes pairs of few bonds out of each row.
+fn exclude(list: &List, problem: &Problem) -> Result<Pass, Error> {
+    let files =
+        [crate::shader!("world.wgsl"), crate::shader!("fields.wgsl"), crate::shader!("neighbors/list_exclude.wgsl")];
+    let work = u64::from(problem.capacity) * u64::from(list.shape.capacity);
+    Ok(Pass { work, ..Pass::new(Shader::join(&files)?, problem.capacity) })
 }
 
 /// Sorts the neighbours of each row by their ids.

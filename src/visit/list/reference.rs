@@ -7,7 +7,7 @@ use rayon::prelude::*;
 
 use crate::error::Error;
 use crate::kernel::{Host, Reference, World};
-use crate::neighbors::{HISTORY, LIST, List, NONE};
+use crate::neighbors::{HISTORY, LIST, List, NONE, exclusions};
 use crate::visit::particle::{Particle, View};
 use crate::visit::{Outcome, result};
 
@@ -52,6 +52,7 @@ pub fn remembering<S: Default>(
         let mut history = host.writing::<f32>(HISTORY)?;
         let was = history.to_vec();
         let half = (world.step & 1) as usize;
+        let left_out = exclusions(host)?;
         let row = |k: usize| -> Result<Option<Made>, Error> {
             let Some(&[end, id]) = list.get(4 * k..4 * k + 2) else { return Ok(None) };
             let Some(me) = bodies.get(id as usize).filter(|_| id != NONE) else { return Ok(None) };
@@ -61,7 +62,7 @@ pub fn remembering<S: Default>(
             let mut next = vec![vec![0.0; slots]; ids.len()];
             for you in bodies.iter().filter(|you| you.is_active() && you.index != me.index) {
                 let way = you.position - me.position;
-                if !world.bounds.within(way, range) {
+                if !world.bounds.within(way, range) || left_out.has(me.index, you.index) {
                     continue;
                 }
                 let missing = || Error::Device(format!("the list of particle {id} lacks particle {}", you.index));

@@ -8,6 +8,7 @@
 
 mod auto;
 mod exact;
+mod exclusions;
 mod far;
 mod growth;
 mod history;

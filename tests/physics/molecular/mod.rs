@@ -9,6 +9,7 @@
 
 mod barostats;
 mod baths;
+mod bonded;
 mod boxes;
 mod lammps;
 mod laws;
