@@ -33,6 +33,8 @@ fn goes_on(s: Search, met: vec2u) -> bool {
     return s.more && s.listed.x - met.x < FAR && s.leaves < NEAR && s.spent <= MOST;
 }
 
+fn without_lowest(bits: u32) -> u32 { return bits & (bits - 1u); }
+
 // The place of a bit of a byte, after so many lower ones.
 fn bit_after(byte: u32, lower: u32) -> u32 {
     let few = countOneBits(byte & 15u);
@@ -40,9 +42,9 @@ fn bit_after(byte: u32, lower: u32) -> u32 {
     // Up to three of four bits.
     let more = lower - select(0u, few, beyond);
     let a = select(byte, byte & 240u, beyond);
-    let b = select(a, a & (a - 1u), more > 0u);
-    let c = select(b, b & (b - 1u), more > 1u);
-    let d = select(c, c & (c - 1u), more > 2u);
+    let b = select(a, without_lowest(a), more > 0u);
+    let c = select(b, without_lowest(b), more > 1u);
+    let d = select(c, without_lowest(c), more > 2u);
     return countTrailingZeros(d);
 }
 
@@ -117,7 +119,7 @@ fn look(search: ptr<function, Search>, lists: ptr<function, Lists>, here: Place,
     }
     s.more = (s.waits.x & 255u) != 0u;
     s.node = (s.node & ~7u) + countTrailingZeros(s.waits.x & 255u);
-    s.waits.x &= s.waits.x - 1u;
+    s.waits.x = without_lowest(s.waits.x);
     s.levels = 3u;
     // Loops with nothing to do take an iteration each to detect that.
     s.spent += 4u;
@@ -132,7 +134,7 @@ fn next_leaf(search: ptr<function, Search>, lists: ptr<function, Lists>, met: pt
         (*met).y += 1u;
     }
     let leaf = (*open >> 8u) * 8u + countTrailingZeros(*open & 255u);
-    *open &= *open - 1u;
+    *open = without_lowest(*open);
     (*search).leaves -= 1u;
     return leaf;
 }

@@ -75,6 +75,7 @@ pub const EQUIVALENT: &[Equivalent] = &[
     same("list_moved", "atomicStore(&list_state[0].moved, 1u)", "1u", "2u", "it is set or not"),
     same("list_search", "< REACH * REACH", "<", "<=", EDGE),
     same("list_search", "if (*sum).number < ROOM", "<", "<=", "a row without room for all is empty"),
+    same("list_exclude", "while next < end", "<", "<=", "behind the end of a row nothing is left out"),
     same("list_decide", "n += WORKGROUP", "+=", "-=", "there are fewer arguments than lanes"),
     same("list_decide", "if lane == 0u", "==", "!=", ALL_KNOW),
     same("list_decide", "if lane == 0u", "0u", "1u", ALL_KNOW),
@@ -281,6 +282,8 @@ pub fn all(shared: &Shared, stages: &mut Vec<Stage>) {
     stages.push(Place { slots: 2, ..place(LANES, periodic, false, ROOM) }.stage(Since::Much));
     // Bonds that leave pairs out.
     stages.push(Place { exclude: 3, ..place(LANES, periodic, false, ROOM) }.stage(Since::Much));
+    // Half of the rows have lower ids alone, and the next ones higher ids.
+    stages.push(Place { exclude: 1, ..place(LANES, open, false, ROOM) }.stage(Since::Never));
     stages.push(Place { exclude: 2, ..steps(2) }.stage(Since::Spawned));
     // In a box that shrinks and grows, little and so much that no pair is sure to be listed.
     let stretched = |part, room| Place { stretch: Some(part), ..place(LANES, periodic, false, room) };

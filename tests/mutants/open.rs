@@ -11,7 +11,7 @@ pub const OPEN: &[Open] = &[
     // The last coefficient of an arc tangent changes an energy by 1e-4, which is a hundredth of that of the contact beside it.
     open("shaders/grains/bridge.wgsl", 1),
     open("shaders/visit/tree_rest.wgsl", 14),
-    open("shaders/visit/tree_subgroup.wgsl", 10),
+    open("shaders/visit/tree_subgroup.wgsl", 7),
     open("shaders/visit/tree_broadcast.wgsl", 1),
     open("shaders/visit/tree_look.wgsl", 1),
     open("shaders/tree/demand.wgsl", 2),

@@ -27,6 +27,7 @@ const DEEP: &str =
 const BEHIND: &str = "nothing is delivered to what is behind the last";
 const SET_FIRST: &str = "it is set before it is looked at";
 const WRITTEN_OVER: &str = "what is written behind the end of a list is written over";
+const MARGIN: &str = "a walk stops an iteration or some earlier or later, for which the limit has room";
 const WHOLE_LEAVES: &str = "a group is of whole leaves";
 
 pub const EQUIVALENT: &[Equivalent] = &[
@@ -48,6 +49,10 @@ pub const EQUIVALENT: &[Equivalent] = &[
     same("tree_look", "if turn < countOneBits(fars)", "<", "<=", WRITTEN_OVER),
     same("tree_look", "if leaf && rest != 0u", "&&", "||", WRITTEN_OVER),
     same("tree_subgroup", "let n = subgroupMax(", "0u", "1u", "a node that is listed has a higher number"),
+    same("tree_look", "fn begun()", "0u", "1u", MARGIN).sometimes(),
+    same("tree_subgroup", "search.spent += 1u;", "1u", "2u", MARGIN).sometimes(),
+    same("tree_subgroup", "search.spent += 1u;", "+=", "-=", MARGIN).sometimes(),
+    same("tree_subgroup", "let ends =", ">", ">=", MARGIN).sometimes(),
     same("tree_subgroup", "var leaf = 0u;", "0u", "1u", SET_FIRST),
     same("tree_subgroup", "if i >= ours && (i - ours) % LEAF", "-", "+", WHOLE_LEAVES),
     same("tree_subgroup", "let slot = select(leaf * LEAF", "-", "+", WHOLE_LEAVES),

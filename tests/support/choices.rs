@@ -76,6 +76,8 @@ pub fn forces(entry: &Entry) -> Vec<(String, Box<dyn Component>)> {
 /// What a key is set to: all its words, or one number that f32 holds.
 fn values(key: &Key) -> Vec<Value> {
     match (key.kind, &key.default) {
+        // Only a list lacks pairs: `tests/engine/neighbors/exclusions.rs`.
+        _ if key.name == "exclude" => vec![Value::Number(0.0)],
         // What wants a box of its own has tests of its own.
         (Kind::Choice(["nearest", "ewald"]), _) => vec![Value::Text("nearest".into())],
         // The faster one of two searches is one of them, and has tests of its own.

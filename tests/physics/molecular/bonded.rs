@@ -64,25 +64,34 @@ fn liquid(exclude: f64, over: &'static str) -> Vec<Box<dyn Component>> {
 
 /// The sum over all pairs, written anew: U(r) = 4 (r⁻¹² − r⁻⁶) less its value and slope at 2, of pairs more than so many places apart in a molecule.
 fn by_hand(state: &State, bounds: &Bounds, atoms: usize, exclude: usize) -> (Vec<DVec3>, f64) {
+    let mut forces = vec![DVec3::ZERO; state.len()];
+    let mut total = 0.0;
+    for (i, j, _, pull, energy) in pairs(state, bounds, atoms, exclude) {
+        total += energy;
+        forces[i] += pull;
+        forces[j] -= pull;
+    }
+    (forces, total)
+}
+
+/// Both atoms, the way from the first to the second, the force on the first, and the energy.
+fn pairs<'a>(
+    state: &'a State,
+    bounds: &'a Bounds,
+    atoms: usize,
+    exclude: usize,
+) -> impl Iterator<Item = (usize, usize, DVec3, DVec3, f64)> + 'a {
     let energy = |r: f64| 4.0 * (r.powi(-12) - r.powi(-6));
     let slope = |r: f64| 4.0 * (-12.0 * r.powi(-13) + 6.0 * r.powi(-7));
     let x = state.position();
-    let mut forces = vec![DVec3::ZERO; state.len()];
-    let mut total = 0.0;
-    for i in 0..state.len() {
-        for j in 0..i {
-            let r = bounds.shortest(x[j] - x[i]);
-            let bonded = i / atoms == j / atoms && i - j <= exclude;
-            if bonded || r.length() >= 2.0 {
-                continue;
-            }
-            total += energy(r.length()) - energy(2.0) - (r.length() - 2.0) * slope(2.0);
-            let pull = (slope(r.length()) - slope(2.0)) / r.length() * r;
-            forces[i] += pull;
-            forces[j] -= pull;
-        }
-    }
-    (forces, total)
+    let all = (0..state.len()).flat_map(|i| (0..i).map(move |j| (i, j)));
+    all.filter_map(move |(i, j)| {
+        let r = bounds.shortest(x[j] - x[i]);
+        let bonded = i / atoms == j / atoms && i - j <= exclude;
+        let pull = (slope(r.length()) - slope(2.0)) / r.length() * r;
+        let ended = energy(r.length()) - energy(2.0) - (r.length() - 2.0) * slope(2.0);
+        (!bonded && r.length() < 2.0).then_some((i, j, r, pull, ended))
+    })
 }
 
 /// 1–2, 1–3 and 1–4 pairs of chains of five in a periodic box, in double precision and on the device. Positions up to 6 are rounded by 2.4e-7 there:
@@ -113,6 +122,15 @@ fn the_forces_of_molecules_lack_their_bonded_pairs() {
             }
         }
     }
+    // The virial is the sum of r · F over the same pairs.
+    let sum: f64 = pairs(&state, &bounds, 5, 2).map(|(_, _, r, pull, _)| pull.dot(r)).sum();
+    let alone = setup(state.clone(), vec![liquid(2.0, "list").swap_remove(0)], bounds, 1e-3);
+    let trace = |w: [f64; 6]| w[0] + w[1] + w[2];
+    let host = trace(block_on(on_cpu(&alone).virial()).expect("a virial"));
+    let mut gpu = Simulation::on(crate::support::machines::gpu(&crate::support::device(), state.len()), &alone)
+        .expect("a simulation");
+    let device = trace(block_on(gpu.virial()).expect("a virial"));
+    assert!((host + sum).abs() < 1e-9 * sum.abs() && (device + sum).abs() < 1e-4 * sum.abs(), "{host} {device} {sum}");
     // With them, bonds would explode: nothing else in this box comes near that.
     let (_, none) = by_hand(&state, &bounds, 5, 0);
     let (_, some) = by_hand(&state, &bounds, 5, 3);
