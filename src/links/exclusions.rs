@@ -4,9 +4,13 @@
 use std::sync::Arc;
 
 use super::{Network, WORDS};
+use crate::error::Error;
 
 /// The maximum number of bonds between the two of a pair that is left out.
 pub const MOST_BONDS: u32 = 8;
+
+/// The maximum number of particles that one does not interact with; a table of more takes more memory than the list itself.
+const MOST_OTHERS: usize = 1024;
 
 /// For each particle those that are at most so many bonds away, in the order of their ids; springs, ropes and rods are bonds.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -19,8 +23,10 @@ pub struct Exclusions {
 
 impl Exclusions {
     /// Those of `count` particles, of pairs up to `bonds` bonds apart.
-    #[must_use]
-    pub fn new(network: &Network, bonds: u32, count: u32) -> Self {
+    ///
+    /// # Errors
+    /// [`Error::Scene`] when a particle has more than 1024 of them.
+    pub fn new(network: &Network, bonds: u32, count: u32) -> Result<Self, Error> {
         let mut partners: Vec<Vec<u32>> = vec![Vec::new(); count as usize];
         let mut join = |a: u32, b: u32| {
             if let Some(row) = partners.get_mut(a as usize).filter(|_| b < count) {
@@ -39,7 +45,10 @@ impl Exclusions {
         }
         let mut start = vec![0];
         let mut others = Vec::new();
+        // The last particle whose row has one.
+        let mut row_of = vec![u32::MAX; count as usize];
         for id in 0..count {
+            row_of[id as usize] = id;
             let first = others.len();
             others.push(id);
             let mut reached = first;
@@ -47,9 +56,15 @@ impl Exclusions {
                 let end = others.len();
                 for n in reached..end {
                     for other in &partners[others[n] as usize] {
-                        if !others[first..].contains(other) {
+                        if std::mem::replace(&mut row_of[*other as usize], id) != id {
                             others.push(*other);
                         }
+                    }
+                    if others.len() - first > MOST_OTHERS + 1 {
+                        return Err(Error::Scene(format!(
+                            "exclude = {bonds}: particle {id} has more than {MOST_OTHERS} others up to {bonds} bonds away: lower `exclude`, or give \
+                             its neighbours fewer bonds"
+                        )));
                     }
                 }
                 reached = end;
@@ -59,7 +74,7 @@ impl Exclusions {
             others[first..].sort_unstable();
             start.push(u32::try_from(others.len()).unwrap_or(u32::MAX));
         }
-        Self { start: Arc::new(start), others: Arc::new(others) }
+        Ok(Self { start: Arc::new(start), others: Arc::new(others) })
     }
     /// Whether a pair is left out, by both indices.
     #[must_use]

@@ -86,10 +86,12 @@ impl List {
         Ok(Self { shape, grid, exclusions: None })
     }
     /// The same without the pairs that bonds of a problem leave out.
-    #[must_use]
-    pub fn excluding(self, problem: &Problem) -> Self {
+    ///
+    /// # Errors
+    /// [`Error::Scene`] when they are too many.
+    pub fn excluding(self, problem: &Problem) -> Result<Self, Error> {
         let all = || Exclusions::new(&problem.network, self.shape.exclude, problem.capacity);
-        Self { exclusions: (self.shape.exclude > 0).then(all), ..self }
+        Ok(Self { exclusions: (self.shape.exclude > 0).then(all).transpose()?, ..self })
     }
     /// The tables of the pairs that it leaves out, which references of laws read, too.
     #[must_use]

@@ -201,7 +201,7 @@ pub fn kernel(law: Law, range: f64, slots: u32, problem: &Problem) -> Result<Ker
         first += rows;
     }
     sizes.extend([(LIST.into(), list.elements(problem.capacity)), (HISTORY.into(), list.words(problem.capacity))]);
-    let tables = tables.into_iter().chain(list.excluding(problem).tables()).collect();
+    let tables = tables.into_iter().chain(list.excluding(problem)?.tables()).collect();
     let mut kernel = Kernel { name: law.name, passes, reference: law.reference, sizes, scratch: Vec::new(), tables };
     law.search.iter().for_each(|search| search.bind(&mut kernel));
     Ok(kernel)

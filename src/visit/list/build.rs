@@ -36,7 +36,7 @@ pub fn is_list(kernel: &Kernel) -> bool {
 /// # Errors
 /// When a shader does not compile, or a field does not fit.
 pub fn kernel(list: List, problem: &Problem) -> Result<Kernel, Error> {
-    let list = list.excluding(problem);
+    let list = list.excluding(problem)?;
     let grid = list.grid.kernel(problem, false)?;
     let count = problem.capacity;
     let search = search(&list, problem)?;

@@ -138,7 +138,7 @@ fn pairs_of_few_bonds_are_not_evaluated_and_all_others_are() {
             let apart = distances(&state, bonds);
             // The table itself, by all kinds of bonds.
             let count = state.len() as u32;
-            let table = Exclusions::new(&Network::new(count, &state.links), bonds, count);
+            let table = Exclusions::new(&Network::new(count, &state.links), bonds, count).expect("few");
             for id in 0..count {
                 let want: Vec<u32> =
                     (0..count).filter(|other| *other != id && apart.contains_key(&(id, *other))).collect();
@@ -192,6 +192,21 @@ fn pairs_of_few_bonds_are_not_evaluated_and_all_others_are() {
                 assert!(agree(&mut simulation, &plan, variant), "{variant}: not built");
             }
         }
+    }
+}
+
+/// A star: any two of its ends are two bonds apart.
+#[test]
+fn a_table_of_too_many_pairs_is_refused() {
+    let star = |count: u32| {
+        let link = |end| Link { ends: [0, end], rest: 1.0, stiffness: 1.0, damping: 0.0, rope: false };
+        Network::new(count, &Links { springs: (1..count).map(link).collect(), ..Links::default() })
+    };
+    for bonds in 1..=8 {
+        let table = Exclusions::new(&star(1024), bonds, 1024).expect("1023 others at most");
+        assert_eq!(table.others.len(), if bonds > 1 { 1024 * 1023 } else { 2 * 1023 });
+        let text = Exclusions::new(&star(50_000), bonds, 50_000).expect_err("too many").to_string();
+        assert!(text.contains(&format!("exclude = {bonds}: particle 0 has more than 1024 others")), "{text}");
     }
 }
 
