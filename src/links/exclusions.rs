@@ -63,7 +63,7 @@ impl Exclusions {
                     if others.len() - first > MOST_OTHERS + 1 {
                         return Err(Error::Scene(format!(
                             "exclude = {bonds}: particle {id} has more than {MOST_OTHERS} others up to {bonds} bonds away: lower `exclude`, or give \
-                             its neighbours fewer bonds"
+                             particles fewer bonds"
                         )));
                     }
                 }
@@ -72,7 +72,13 @@ impl Exclusions {
             // A particle is not its own neighbour.
             others.swap_remove(first);
             others[first..].sort_unstable();
-            start.push(u32::try_from(others.len()).unwrap_or(u32::MAX));
+            let Ok(end) = u32::try_from(others.len()) else {
+                return Err(Error::Scene(format!(
+                    "exclude = {bonds} leaves out more than {} pairs: lower `exclude`",
+                    u32::MAX
+                )));
+            };
+            start.push(end);
         }
         Ok(Self { start: Arc::new(start), others: Arc::new(others) })
     }

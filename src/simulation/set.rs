@@ -104,7 +104,11 @@ impl<B: Backend> Simulation<B> {
             let laws: Vec<Law> = setup.forces.iter().flat_map(|force| force.laws()).collect();
             visit::shared_list(&laws, &problem)
         };
-        if shape(&setup)? != shape(&self.setup)? {
+        let (old, new) = (shape(&self.setup)?, shape(&setup)?);
+        if old.map(|list| list.exclude) != new.map(|list| list.exclude) {
+            return refuse("changes which bonded pairs the list of neighbours leaves out");
+        }
+        if old != new {
             return refuse("changes how far the list of neighbours reaches, and with it the room for them");
         }
         if setup.breaks() != self.setup.breaks() {

@@ -53,8 +53,8 @@ pub fn shared(laws: &[Law], problem: &Problem) -> Result<Option<ListShape>, Erro
         }
         if known.exclude != law.exclude {
             return Err(Error::Scene(format!(
-                "`{}` has exclude = {}, and another law over the same list has {}: the list lacks pairs of so few bonds for all of them; give \
-                 them the same `exclude`, or search neighbours of one of them over = \"near\", which leaves no pair out",
+                "`{}` has exclude = {}, and another law over the same list has {}: one list serves both, and lacks the same pairs for both; give \
+                 them the same `exclude`, or remove it, or set over = \"near\" for the one that has none",
                 law.name, law.exclude, known.exclude
             )));
         }

@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use glam::{DVec3, DVec4, Vec4};
-use motes::forces::{Component, Law, Over};
+use motes::forces::{Component, Custom, Law, Over};
 use motes::integrators::Step;
 use motes::kernel::{Machine, Problem, Source};
 use motes::links::{Exclusions, Link, Links, Network, Rod};
@@ -11,6 +11,7 @@ use motes::{Bounds, Error, Side, State};
 
 use crate::neighbors::list::{accelerations, agree, builds, evaluation, jet, on, positions, setup};
 use crate::neighbors::variants;
+use crate::support::states::{force, word};
 use crate::support::{self, Random};
 
 /// A power of two: nothing is rounded.
@@ -208,6 +209,32 @@ fn a_table_of_too_many_pairs_is_refused() {
         let text = Exclusions::new(&star(50_000), bonds, 50_000).expect_err("too many").to_string();
         assert!(text.contains(&format!("exclude = {bonds}: particle 0 has more than 1024 others")), "{text}");
     }
+}
+
+/// Every law with the key, and a user's.
+#[test]
+fn the_key_reaches_the_laws() {
+    let with = |name: &str, bonds: f64, over: &'static str| {
+        let settings = [("exclude", bonds.into()), ("over", word(over)), ("range", 0.5.into())];
+        let known = motes::forces::entry(name).expect("a force").keys;
+        let settings: Vec<_> = settings.into_iter().filter(|(key, _)| known.iter().any(|k| k.name == *key)).collect();
+        force(name, &settings)
+    };
+    let names: Vec<_> = motes::forces::entries().filter(|e| e.keys.iter().any(|key| key.name == "exclude")).collect();
+    assert!(names.len() == 5, "{}", names.len());
+    for entry in names {
+        assert_eq!(with(entry.name, 2.0, "list").laws()[0].exclude, 2, "{}", entry.name);
+        for (bonds, over) in [(9.0, "list"), (1.0, "near"), (3.0, "within")] {
+            let error = with(entry.name, bonds, over).check(&Bounds::default()).expect_err("refused").to_string();
+            assert!(error.contains(&format!("exclude = {bonds}")), "{}: {error}", entry.name);
+        }
+        for (bonds, over) in [(8.0, "list"), (2.0, "auto"), (0.0, "near")] {
+            with(entry.name, bonds, over).check(&Bounds::default()).expect(entry.name);
+        }
+    }
+    let over = Over::List { range: RANGE, skin: None, slots: 0 };
+    let own = Custom { exclude: 3, ..Custom::new("own", "own.wgsl", COUNTING, over) };
+    assert_eq!(own.laws()[0].exclude, 3);
 }
 
 #[test]

@@ -213,6 +213,24 @@ fn a_law_of_ones_own_is_read_from_its_file() {
         );
     }
 
+    for (over, bonds) in [("list", 3), ("auto", 1)] {
+        let scene =
+            format!("{SMALL}[[force]]\nwgsl = \"swirl.wgsl\"\nover = \"{over}\"\nrange = 0.1\nexclude = {bonds}\n");
+        let law: &[u8] = b"fn gather() {}";
+        let made = report_in(&[("scene.toml", scene.as_bytes()), ("swirl.wgsl", law)], &Options::default());
+        let made = made.expect("a good scene");
+        assert_eq!(made.forces[0].laws()[0].exclude, bonds);
+        assert!(made.resolved.contains(&format!("\nexclude = {bonds}\n")), "{}", made.resolved);
+        for wrong in ["10000000000", "-1", "9"] {
+            let text = scene.replace(&format!("exclude = {bonds}"), &format!("exclude = {wrong}"));
+            let (report, code) = fault(&[("scene.toml", text.as_bytes()), ("swirl.wgsl", law)]);
+            assert!(code == 3 && report.contains(wrong) && report.contains("exclude"), "{report}");
+        }
+        let text = scene.replace(over, "near");
+        let (report, _) = fault(&[("scene.toml", text.as_bytes()), ("swirl.wgsl", law)]);
+        assert!(report.contains("a law over \"near\" does not use `exclude`"), "{report}");
+    }
+
     let heap =
         "[simulation]\ndt = 0.1\nsteps = 10\n[[particles]]\nshape = \"grains\"\nsize = [1, 1, 1]\nradius = 0.1\n";
     let scene = format!("{heap}[[force]]\nwgsl = \"swirl.wgsl\"\nover = \"list\"\nrange = 0.3\ngrains = true\n");

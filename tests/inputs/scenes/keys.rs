@@ -303,3 +303,20 @@ fn a_skin_without_a_list_is_remarked_on() {
         assert_eq!(remarks(over, skin), Vec::<String>::new(), "{over} {skin}");
     }
 }
+
+/// Bonded pairs are left out where there are no bonds: nothing is, and that is remarked on.
+#[test]
+fn pairs_to_leave_out_of_a_scene_without_bonds_are_remarked_on() {
+    let remarks = |name: &str, number: usize, bonds: u32| {
+        let set = [format!("force.{number}.over=list"), format!("force.{number}.exclude={bonds}")];
+        let source = Source::find(name).expect("a built-in scene");
+        let scene = Scene::load(&source, &set, &Options::default()).unwrap_or_else(|faults| panic!("{faults}"));
+        assert_eq!(scene.forces[number].laws()[0].exclude, bonds, "{name}");
+        scene.remarks
+    };
+    let said = remarks("argon", 0, 2);
+    assert!(said.len() == 1 && said[0].contains("`exclude`") && said[0].contains("no pair is left out"), "{said:?}");
+    assert_eq!(remarks("argon", 0, 0), Vec::<String>::new());
+    // Those of `polymer` are bonded.
+    assert_eq!(remarks("polymer", 0, 1), Vec::<String>::new());
+}
