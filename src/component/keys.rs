@@ -4,7 +4,7 @@ use std::borrow::Cow;
 
 use crate::error::Error;
 use crate::kernel::Scalar;
-use crate::links::MOST_BONDS;
+use crate::links::too_many_bonds;
 use crate::settings::{Key, Kind, Settings, Value};
 use crate::visit::{Law, Over};
 
@@ -70,8 +70,8 @@ pub fn excluding(settings: &Settings, law: Law) -> Law {
 pub fn check_exclude(settings: &Settings) -> Result<(), Error> {
     let bonds = settings.number("exclude");
     let over = settings.text("over");
-    let why = if bonds > f64::from(MOST_BONDS) {
-        format!("exclude = {bonds}: pairs up to {MOST_BONDS} bonds apart can be left out; 3 is usual")
+    let why = if let Some(why) = too_many_bonds(bonds) {
+        why
     } else if bonds > 0.0 && !["list", "auto"].contains(&over) {
         format!("exclude = {bonds} beside over = \"{over}\": only a kept list lacks pairs; set over = \"list\"")
     } else {

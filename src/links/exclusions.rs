@@ -7,10 +7,17 @@ use super::{Network, WORDS};
 use crate::error::Error;
 
 /// The maximum number of bonds between the two of a pair that is left out.
-pub const MOST_BONDS: u32 = 8;
+const MOST_BONDS: u32 = 8;
 
 /// The maximum number of particles that one does not interact with; a table of more takes more memory than the list itself.
 const MOST_OTHERS: usize = 1024;
+
+/// Why pairs up to so many bonds apart cannot be left out, if they cannot.
+#[must_use]
+pub fn too_many_bonds(bonds: f64) -> Option<String> {
+    let why = || format!("exclude = {bonds}: pairs up to {MOST_BONDS} bonds apart can be left out; 3 is usual");
+    (bonds > f64::from(MOST_BONDS)).then(why)
+}
 
 /// For each particle those that are at most so many bonds away, in the order of their ids; springs, ropes and rods are bonds.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -45,7 +52,7 @@ impl Exclusions {
         }
         let mut start = vec![0];
         let mut others = Vec::new();
-        // The last particle whose row has one.
+        // The row that each particle was put into last.
         let mut row_of = vec![u32::MAX; count as usize];
         for id in 0..count {
             row_of[id as usize] = id;

@@ -11,7 +11,7 @@ mod rods;
 #[doc(hidden)]
 pub use chains::{Chains, MOST_RODS, Node};
 #[doc(hidden)]
-pub use exclusions::{Exclusions, MOST_BONDS};
+pub use exclusions::{Exclusions, too_many_bonds};
 #[doc(hidden)]
 pub use half::{Corner, Half, WORDS};
 #[doc(hidden)]

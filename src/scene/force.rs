@@ -5,7 +5,7 @@ use std::path::Path;
 use crate::error::Error;
 use crate::forces::{self, Component, Custom, Over};
 use crate::kernel::Bounds;
-use crate::links::MOST_BONDS;
+use crate::links::too_many_bonds;
 use crate::motion::Motion;
 use crate::settings::{Kind, Settings, Value};
 use crate::state::State;
@@ -68,8 +68,7 @@ fn read_own(table: &Table<'_>, wgsl: &Entry, files: &Files, report: &mut Report)
     let tables = table.get("tables").map_or_else(Vec::new, |entry| tables(entry, report));
     let into = table.get("into").map_or_else(|| vec!["acceleration".into()], |entry| into(entry, report));
     let exclude = optional(table, "exclude", Kind::Whole, report).flatten().unwrap_or(0.0);
-    if let Some(entry) = table.get("exclude").filter(|_| exclude > f64::from(MOST_BONDS)) {
-        let why = format!("exclude = {exclude}: pairs up to {MOST_BONDS} bonds apart can be left out; 3 is usual");
+    if let (Some(entry), Some(why)) = (table.get("exclude"), too_many_bonds(exclude)) {
         report.push(Fault::at(&entry.node.place, why));
     }
     let grains = table.get("grains").is_some_and(|entry| flag(entry, report));

@@ -9,7 +9,7 @@ pub use reference::{Memory, remembering};
 use super::{Law, Over};
 use crate::error::Error;
 use crate::kernel::{ALARM, ALARM_WORDS, Kernel, ListShape, Pass, Problem, Shader, Source, Threads};
-use crate::links::MOST_BONDS;
+use crate::links::too_many_bonds;
 use crate::neighbors::{HISTORY, LIST, List};
 
 /// Rows of one dispatch, at most. It is an integer of workgroups.
@@ -81,10 +81,8 @@ impl Law {
         if bonds == 0 {
             return Ok(());
         }
-        if bonds > MOST_BONDS {
-            return Err(Error::Scene(format!(
-                "`{name}` has exclude = {bonds}: pairs up to {MOST_BONDS} bonds apart can be left out, and 3 is usual"
-            )));
+        if let Some(why) = too_many_bonds(f64::from(bonds)) {
+            return Err(Error::Scene(format!("`{name}` has {why}")));
         }
         if !matches!(self.faster(problem), Over::List { .. }) {
             return Err(Error::Scene(format!(

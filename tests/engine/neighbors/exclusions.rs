@@ -2,14 +2,16 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use glam::{DVec3, DVec4, Vec4};
+use glam::{DVec3, DVec4};
 use motes::forces::{Component, Custom, Law, Over};
 use motes::integrators::Step;
 use motes::kernel::{Machine, Problem, Source};
 use motes::links::{Exclusions, Link, Links, Network, Rod};
 use motes::{Bounds, Error, Side, State};
 
-use crate::neighbors::list::{accelerations, agree, builds, evaluation, jet, on, positions, setup};
+use crate::neighbors::list::{
+    accelerations, active_places, agree, builds, evaluation, jet, life, on, positions, setup,
+};
 use crate::neighbors::variants;
 use crate::support::states::{force, word};
 use crate::support::{self, Random};
@@ -156,13 +158,11 @@ fn pairs_of_few_bonds_are_not_evaluated_and_all_others_are() {
                 let (mut left_out, mut met) = (0, 0);
                 simulation.step(0).expect("a start");
                 for step in 0..30 {
-                    let before = pollster::block_on(simulation.read(motes::LIFE)).ok();
+                    let before = life(&mut simulation);
                     simulation.step(1).expect("a step");
                     pollster::block_on(simulation.check()).expect("no alarm");
-                    let active = |i: usize| before.as_ref().is_none_or(|life| life[i] == 1);
-                    let place = |(i, x): (usize, &Vec4)| if active(i) { x.truncate().as_dvec3() } else { DVec3::NAN };
-                    let places: Vec<DVec3> = positions(&mut simulation).iter().enumerate().map(place).collect();
-                    let after = pollster::block_on(simulation.read(motes::LIFE)).ok();
+                    let places = active_places(&mut simulation, before.as_deref());
+                    let after = life(&mut simulation);
                     let got = accelerations(&mut simulation);
                     let mut now = BTreeMap::new();
                     for i in 0..places.len() {

@@ -8,7 +8,9 @@ use motes::kernel::{Backend, Machine, Source};
 use motes::{Bounds, Error, Setup, Side, Simulation, State};
 
 use crate::neighbors::growth::{STEPS, collapsed, inward};
-use crate::neighbors::list::{accelerations, agree, builds, evaluation, jet, on, positions, setup};
+use crate::neighbors::list::{
+    accelerations, active_places, agree, builds, evaluation, jet, life, on, positions, setup,
+};
 use crate::neighbors::variants;
 use crate::support::{self, machines};
 
@@ -98,15 +100,13 @@ fn a_map_by_ids_remembers_the_same() {
                 }
                 // A particle that is due at the start is spawned there.
                 simulation.step(0).expect("a start");
-                let before = pollster::block_on(simulation.read(motes::LIFE)).ok();
+                let before = life(&mut simulation);
                 simulation.step(1).expect("a step");
                 pollster::block_on(simulation.check()).expect("no alarm");
                 // A particle that is spawned or removed at the end of a step has been evaluated as it was before.
-                let active = |i: usize| before.as_ref().is_none_or(|life| life[i] == 1);
-                let place = |(i, x): (usize, &Vec4)| if active(i) { x.truncate().as_dvec3() } else { DVec3::NAN };
-                let places: Vec<DVec3> = positions(&mut simulation).iter().enumerate().map(place).collect();
+                let places = active_places(&mut simulation, before.as_deref());
                 let (next, acting) = remembered(&known, &places, &bounds);
-                let after = pollster::block_on(simulation.read(motes::LIFE)).ok();
+                let after = life(&mut simulation);
                 let got = accelerations(&mut simulation);
                 for i in 0..places.len() {
                     // A drain takes the acceleration.

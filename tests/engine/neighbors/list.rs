@@ -65,13 +65,22 @@ pub fn builds(simulation: &mut Simulation<Gpu>) -> u32 {
     bytemuck::pod_collect_to_vec::<u8, u32>(&bytes)[1]
 }
 
+/// Which particles are active, where any are not.
+pub fn life(simulation: &mut Simulation<Gpu>) -> Option<Vec<u32>> {
+    pollster::block_on(simulation.read(motes::LIFE)).ok()
+}
+
+/// Where particles are; an inactive one is far from all others.
+pub fn active_places(simulation: &mut Simulation<Gpu>, life: Option<&[u32]>) -> Vec<DVec3> {
+    let active = |i: usize| life.is_none_or(|life| life[i] == 1);
+    let place = |(i, x): (usize, &Vec4)| if active(i) { x.truncate().as_dvec3() } else { DVec3::NAN };
+    positions(simulation).iter().enumerate().map(place).collect()
+}
+
 /// What brute force finds among active particles, as the weak law says it.
 pub fn wanted(simulation: &mut Simulation<Gpu>, bounds: &Bounds, range: f64) -> Vec<Vec4> {
-    let life = pollster::block_on(simulation.read(motes::LIFE)).ok();
-    let active = |i: usize| life.as_ref().is_none_or(|life| life[i] == 1);
-    // An inactive particle is far from all others.
-    let place = |(i, x): (usize, &Vec4)| if active(i) { x.truncate().as_dvec3() } else { DVec3::NAN };
-    let places: Vec<DVec3> = positions(simulation).iter().enumerate().map(place).collect();
+    let life = life(simulation);
+    let places = active_places(simulation, life.as_deref());
     by_force(&places, bounds, range).iter().map(|a| (PART * a.as_dvec4()).as_vec4()).collect()
 }
 
