@@ -94,7 +94,7 @@ pub enum Error {
     /// A particle has more neighbours than a neighbour search or a tree walk can visit. Remedy: a shorter range, or a larger
     /// opening angle.
     #[error(
-        "particle {particle} has more neighbours than can be visited at once (240000 in a cell list, all dispatches of a tree walk, \
+        "particle {particle} has more neighbours than can be visited at once (240000 in a cell list, 28000 to 120000 where a software adapter builds a neighbour list, all dispatches of a tree walk, \
          or twice as many as at rest in a fluid with solver = \"dfsph\"): choose a shorter range or a larger theta; for a \
          fluid a smaller dt, or a spacing that agrees with its particles; or look for forces that drive particles to \
          one position"

@@ -52,6 +52,7 @@ pub mod error;
 #[cfg(feature = "scene")]
 #[doc(hidden)]
 pub mod evacuation;
+mod ewald;
 #[cfg(doc)]
 pub mod examples;
 #[doc(hidden)]

@@ -7,6 +7,8 @@ mod truncation;
 use nudge::{Nudged, nudged};
 pub use truncation::{Truncation, truncation};
 
+use std::collections::BTreeMap;
+
 use glam::{DVec3, DVec4};
 
 use crate::error::Error;
@@ -82,21 +84,45 @@ impl Verdict {
 /// # Errors
 /// Errors of the device.
 pub async fn compare(gpu: &mut Gpu, plan: &Plan, count: u32) -> Result<Vec<Verdict>, Error> {
-    compare_while(gpu, plan, count, |_| true).await
+    compared(gpu, plan, count, |_| true, None).await
 }
 
-/// The same up to the first kernel with a verdict that does not let it continue.
+/// What goes into the first kernel of a plan, and what its reference makes of it: the same each time that the plan runs from one state.
+#[derive(Default)]
+pub struct Known(Option<Answer>);
+
+/// Arrays and parameters before a kernel, and all that a reference made of them.
+struct Answer {
+    before: BTreeMap<String, Array>,
+    world: World,
+    after: Host,
+}
+
+/// The same from one state again and again, up to the first kernel with a verdict that does not let it continue. `known` belongs to the plan
+/// and to the state; other shaders may stand in the plan, of the same fields. [`Verdict::conditioned`] is not evaluated: it is as `worst`.
 ///
 /// # Errors
 /// As [`compare`].
-pub async fn compare_while(
+pub async fn compare_again(
     gpu: &mut Gpu,
     plan: &Plan,
     count: u32,
     goes_on: impl Fn(&Verdict) -> bool,
+    known: &mut Known,
+) -> Result<Vec<Verdict>, Error> {
+    compared(gpu, plan, count, goes_on, Some(known)).await
+}
+
+async fn compared(
+    gpu: &mut Gpu,
+    plan: &Plan,
+    count: u32,
+    goes_on: impl Fn(&Verdict) -> bool,
+    mut known: Option<&mut Known>,
 ) -> Result<Vec<Verdict>, Error> {
     gpu.compile(plan)?;
     let mut verdicts = Vec::new();
+    let mut runs = 0;
     let mut walk = plan.walk();
     while let Some(next) = walk.next().filter(|_| verdicts.iter().all(&goes_on)) {
         let kernel = match next {
@@ -108,6 +134,7 @@ pub async fn compare_while(
                 continue;
             }
         };
+        runs += 1;
         let single = Plan::of([kernel.clone()]);
         let program = gpu.compile(&single)?;
         let Some(reference) = &kernel.reference else {
@@ -133,19 +160,29 @@ pub async fn compare_while(
         for name in &scratch {
             behind(gpu, name, 0, sentinel(fields.len()))?;
         }
-        let mut host = Host::default();
-        for (name, bytes, kind, _) in &fields {
-            host.insert(name, kind.like(&gpu.bytes(name, 0, *bytes).await?));
-        }
-        // A reference may read tables that the device has no use for.
-        for (name, words) in kernel.tables.iter().filter(|(name, _)| fields.iter().all(|(known, ..)| name != known)) {
-            host.insert(name, Array::Uint(words.to_vec()));
-        }
-        let world = gpu.world().await?;
-        host.set_world(world);
-        gpu.run(&program, 1)?;
-        let before: Vec<_> = fields.iter().map(|(name, ..)| host.get(name)).collect();
-        reference(&host)?;
+        let answer = known.as_mut().filter(|_| runs == 1).and_then(|known| known.0.take());
+        let answer = if let Some(answer) = answer {
+            gpu.run(&program, 1)?;
+            answer
+        } else {
+            let mut after = Host::default();
+            for (name, bytes, kind, _) in &fields {
+                after.insert(name, kind.like(&gpu.bytes(name, 0, *bytes).await?));
+            }
+            // A reference may read tables that the device has no use for.
+            for (name, words) in kernel.tables.iter().filter(|(name, _)| fields.iter().all(|(other, ..)| name != other))
+            {
+                after.insert(name, Array::Uint(words.to_vec()));
+            }
+            let world = gpu.world().await?;
+            after.set_world(world);
+            gpu.run(&program, 1)?;
+            let before = fields.iter().filter_map(|(name, ..)| after.get(name).map(|array| (name.clone(), array)));
+            let before = before.collect();
+            reference(&after)?;
+            Answer { before, world, after }
+        };
+        let (before, world, host) = (&answer.before, answer.world, &answer.after);
         if kernel.writes().iter().any(|name| name == "world") {
             let (got, periods) = (gpu.world().await?, gpu.periods().await?.map(glam::Vec3::as_dvec3));
             verdicts.push(worlds(&kernel.name, world, (got, periods), host.world()));
@@ -166,14 +203,14 @@ pub async fn compare_while(
             }
         }
         let mut others: Option<Nudged> = None;
-        for (place, ((name, bytes, kind, parts), began)) in fields.iter().zip(&before).enumerate() {
+        for (place, (name, bytes, kind, parts)) in fields.iter().enumerate() {
             if !kernel.writes().contains(name) {
                 continue;
             }
             let all = gpu.bytes(name, 0, gpu.size(name)).await?;
             let (data, tail) = all.split_at(usize::try_from(*bytes).unwrap_or(0).min(all.len()));
             let spilled = tail.chunks_exact(4).any(|word| word != sentinel(place));
-            let (Some(start), Some(want)) = (began, host.get(name)) else { continue };
+            let (Some(start), Some(want)) = (before.get(name), host.get(name)) else { continue };
             // What has another length than particles have is made anew each time, whatever it was. Integers are exact.
             // So is the acceleration by the first law.
             let first =
@@ -186,7 +223,7 @@ pub async fn compare_while(
             // A low word says nothing alone: the sum of both is compared.
             if let Some(high) = high_words(name) {
                 let device = kind.like(&gpu.bytes(high, 0, *bytes).await?);
-                let own = fields.iter().position(|(field, ..)| field == high).and_then(|place| before[place].clone());
+                let own = before.get(high).cloned();
                 let highs =
                     [own.unwrap_or_else(|| device.clone()), host.get(high).unwrap_or_else(|| device.clone()), device];
                 let [a, b, c] = arrays;
@@ -197,9 +234,9 @@ pub async fn compare_while(
             let [start, want, got] = &arrays;
             let mut verdict = judge((start, want, got), *parts, tolerance, None, &[]);
             verdict.conditioned = verdict.worst;
-            if !verdict.good() {
+            if known.is_none() && !verdict.good() {
                 if others.is_none() {
-                    let inputs = fields.iter().zip(&before).map(|((name, ..), array)| (name.as_str(), array.as_ref()));
+                    let inputs = fields.iter().map(|(name, ..)| (name.as_str(), before.get(name)));
                     others = Some(nudged(reference, &inputs.collect::<Vec<_>>(), world)?);
                 }
                 let (sway, aside) = others.as_ref().map(|others| others.of(name)).unwrap_or_default();
@@ -207,6 +244,11 @@ pub async fn compare_while(
             }
             (verdict.kernel, verdict.field, verdict.spilled) = (kernel.name.clone(), name.clone(), spilled);
             verdicts.push(verdict);
+        }
+        if runs == 1
+            && let Some(known) = &mut known
+        {
+            known.0 = Some(answer);
         }
     }
     Ok(verdicts)

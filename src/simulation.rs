@@ -145,7 +145,7 @@ impl<B: Backend> Simulation<B> {
         let measure = (backend.compile(&plans.measure.0)?, backend.compile(&plans.measure.1)?);
         let state = &setup.state;
         let store = Store::new(setup, &plans, count)?;
-        let print = restart::print(&plans.step);
+        let print = restart::print(&plans.step, &problem);
         let whole = how == Start::Grown || restart::is_whole(print, &given.state);
         store.write(&mut backend, setup, whole)?;
         let anchored = plans.all().any(|plan| plan.fields(count).contains_key(HOME.name));

@@ -39,6 +39,7 @@ fn box_advance() {
         let shortest = box_watch[0].x;
         let along = corner.x - world.low.x;
         box_watch[0].x = select(min(shortest, along), along, shortest == 0.0);
+        box_watch[0].w = max(box_watch[0].w, along);
         box_go[0] = select(0u, GROUPS, moves);
         box_go[1] = select(0u, ROWS, moves);
         box_go[2] = select(0u, 1u, moves);

@@ -3,7 +3,7 @@
 @group(0) @binding(0) var<uniform> world: World;
 @group(1) @binding(0) var<storage, read> pressure_total: array<vec4f>;
 @group(1) @binding(1) var<storage, read_write> box_strain: array<f32>;
-// The shortest side so far, the largest |ε|, and how many particles had forces that did not add up.
+// The shortest side so far, the largest |ε|, how many particles had forces that did not add up, and the longest side so far.
 @group(1) @binding(2) var<storage, read_write> box_watch: array<vec4f>;
 
 override EVERY: u32 = 1u;

@@ -82,5 +82,7 @@ fn force(me: Particle) -> vec4f {
         let k = at(corner, n);
         if is_known(k) && is_open(corner, nearest, n) { way += weights[n] * heading(k); }
     }
-    return vec4f((desired_speed[me.index] * unit(vec3f(way, 0.0)) - velocity_of(me)) / params.relaxation_time, 0.0);
+    let e = unit(vec3f(way, 0.0));
+    desire(me.index, e);
+    return vec4f((desired_speed[me.index] * e - velocity_of(me)) / params.relaxation_time, 0.0);
 }

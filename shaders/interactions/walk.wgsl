@@ -11,5 +11,6 @@ fn force(me: Particle) -> vec4f {
     if !is_of(me.index, params.species) { return vec4f(); }
     var way = params.direction;
     if params.to_target > 0u { way = unit(shortest(params.destination - me.position)); }
+    desire(me.index, way);
     return vec4f((desired_speed[me.index] * way - velocity_of(me)) / params.relaxation_time, 0.0);
 }

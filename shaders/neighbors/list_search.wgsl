@@ -14,13 +14,19 @@ fn acts_on(me: Particle) -> bool { return true; }
 
 fn put(slot: u32, n: u32, id: u32) { list_found[(1u + n / 4u) * world.capacity + slot][n % 4u] = id; }
 
-fn gather(me: Particle, you: Particle, r: vec3f, sum: ptr<function, Sum>) {
-    // The grid searches slightly farther than the reach. The stored positions decide, and not their images in the box.
+// The grid searches slightly farther than the reach. The stored positions decide, and not their images in the box.
+fn in_reach(me: Particle, you: Particle) -> bool {
     let way = shortest(stored(you) - stored(me));
-    if way.x * way.x + way.y * way.y + way.z * way.z < REACH * REACH {
-        if (*sum).number < ROOM { put(me.slot, (*sum).number, you.index); }
-        (*sum).number += 1u;
-    }
+    return way.x * way.x + way.y * way.y + way.z * way.z < REACH * REACH;
+}
+
+fn add(me: Particle, id: u32, sum: ptr<function, Sum>) {
+    if (*sum).number < ROOM { put(me.slot, (*sum).number, id); }
+    (*sum).number += 1u;
+}
+
+fn gather(me: Particle, you: Particle, r: vec3f, sum: ptr<function, Sum>) {
+    if in_reach(me, you) { add(me, you.index, sum); }
 }
 
 fn deliver(k: u32, me: Particle, sum: Sum) {

@@ -1,8 +1,6 @@
-// Each particle visits the joints, or the triangles, of which it is a corner, in the order of their ids. The law defines:
+// Each particle visits the joints, the dihedrals or the triangles of which it is a corner, in the order of their ids. The law defines:
 // fn gather(me, corner: Corner, sum: ptr<function, Sum>), and fn finish(me, sum: Sum) -> vec4f, acceleration and potential per unit mass.
-// An element is stored with each of its three corners, so nothing is written twice.
-struct Corner { first: u32, second: u32, third: u32, place: u32, stiffness: f32 } // `place` is my index among the three: 0, 1, 2
-
+// An element is stored with each of its corners, so nothing is written twice.
 @group(2) @binding(0) var<storage, read> corner_start: array<u32>; // one for each particle, and the end
 @group(2) @binding(1) var<storage, read> corner: array<Corner>;
 
@@ -16,7 +14,7 @@ fn corners(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups:
     var sum = Sum();
     let end = corner_start[i + 1u];
     for (var k = corner_start[i]; k < end; k += 1u) { gather(me, corner[k], &sum); }
-    // Each of the three holds a third of the energy.
-    conclude(me, 1.0 / 3.0, sum);
+    // Each corner has the same part of the energy.
+    conclude(me, 1.0 / CORNERS, sum);
     check_turns(me);
 }

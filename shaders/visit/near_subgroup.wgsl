@@ -8,11 +8,6 @@ const NONE: u32 = 0xffffffffu;
 // Ranges between particles that walk together, at most: more, and most of what they look at is not theirs.
 const APART: u32 = 3u;
 
-fn consider(k: u32, slot: u32, end: u32, shift: vec3f, me: Particle, you: Particle, with_me: bool, sum: ptr<function, Sum>) {
-    let r = way(me.position, you.position, shift);
-    if with_me && slot < end && in_range(r) && !same(k, slot, me) { gather(me, you, r, sum); }
-}
-
 // Whether I look at the rows of another, at parts of them that do not reach round the seam into each other: particles that walk
 // together stands up to twice APART from each other, on both sides of the leader.
 fn beside(a: Around, lane: u32) -> bool {
@@ -36,55 +31,54 @@ fn near(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: ve
     var sum = Sum();
     var waits = awake;
     var walked = 0u;
-    for (var turn = 0u; turn < LANES && subgroupAny(waits); turn += 1u) {
+    loop {
         // Of the iterations that an invocation's loops may take, those before this one had some. Two searches of MOST are all.
         let spent = max(walked, MOST) - MOST;
         var seen = spent;
         // The first that waits, and all that can go along.
-        let leader = subgroupMin(select(NONE, place, waits));
+        let first = subgroupMin(select(NONE, place, waits));
+        let leader = first % LANES;
         let together = beside(a, leader);
         let with_me = waits && together;
         let low = subgroupMin(select(NONE, a.cell.x, with_me));
         let high = subgroupMax(select(0u, a.cell.x, with_me));
         let led = Around(subgroupShuffle(a.cell, leader), subgroupShuffle(a.reach, leader), subgroupShuffle(a.span, leader));
         let parts = select(1u, 3u, subgroupAny(with_me && seam(a)));
-        let rows = led.span.y * deep(led) * parts;
-        // Every lane looks up one stretch; then all walk the eight. One loop over them all: on these adapters a loop costs
-        // one turn more than it has, and a branch is never skipped.
-        for (var base = 0u; base < rows; base += LANES) {
+        let rows = select(0u, led.span.y * deep(led) * parts, first < LANES);
+        // Every lane looks up one stretch; then all walk the eight. On these adapters a branch is never skipped, and a loop that has its
+        // test before its end takes a turn more than it has.
+        var base = 0u;
+        loop {
             let i = base + place;
             let line = i / parts;
             var own = stretch(led, low, high, line / led.span.y, line % led.span.y, select(i % parts, 1u, parts == 1u));
             if i >= rows { own.end = own.start; }
             seen += subgroupAdd(STRETCH + own.end - own.start);
             var left = subgroupBallot(own.end > own.start && seen <= MOST).x;
-            var slot = 0u;
-            var end = 0u;
-            var shift = vec3f();
             loop {
-                if slot >= end {
-                    if left == 0u { break; }
-                    let next = firstTrailingBit(left);
-                    left &= left - 1u;
-                    slot = subgroupShuffle(own.start, next);
-                    end = subgroupShuffle(own.end, next);
-                    if PERIODIC { shift = subgroupShuffle(own.shift, next); }
+                let some = left != 0u;
+                let next = select(0u, firstTrailingBit(left), some);
+                left &= left - 1u;
+                var slot = subgroupShuffle(own.start, next);
+                let end = select(slot, subgroupShuffle(own.end, next), some);
+                let behind = max(end, 1u);
+                var shift = vec3f();
+                if PERIODIC { shift = subgroupShuffle(own.shift, next); }
+                loop {
+                    let q = candidate(min(slot + place, behind - 1u));
+                    consider_eight(k, slot, end, shift, me, q, with_me, &sum);
+                    slot += LANES;
+                    if slot >= end { break; }
                 }
-                let q = candidate(min(slot + place, end - 1u));
-                consider(k, slot, end, shift, me, broadcast0(q), with_me, &sum);
-                consider(k, slot + 1u, end, shift, me, broadcast1(q), with_me, &sum);
-                consider(k, slot + 2u, end, shift, me, broadcast2(q), with_me, &sum);
-                consider(k, slot + 3u, end, shift, me, broadcast3(q), with_me, &sum);
-                consider(k, slot + 4u, end, shift, me, broadcast4(q), with_me, &sum);
-                consider(k, slot + 5u, end, shift, me, broadcast5(q), with_me, &sum);
-                consider(k, slot + 6u, end, shift, me, broadcast6(q), with_me, &sum);
-                consider(k, slot + 7u, end, shift, me, broadcast7(q), with_me, &sum);
-                slot += LANES;
+                if left == 0u { break; }
             }
+            base += LANES;
+            if base >= rows { break; }
         }
         if with_me && seen > MOST { atomicMin(&alarm[2], me.index); }
         walked += min(seen, MOST) - spent;
         waits = waits && !with_me;
+        if !subgroupAny(waits) { break; }
     }
     if awake { deliver(k, me, sum); }
     check_turns(me);

@@ -62,9 +62,8 @@ fn neighbors(setup: &Setup, particle: u32) -> String {
     };
     let mut others: Vec<u32> = Vec::new();
     let pairs = links.springs.iter().map(|s| s.ends).chain(links.rods.iter().map(|r| r.ends));
-    let threes = links.joints.iter().map(|j| j.ids).chain(links.triangles.iter().copied());
     others.extend(pairs.filter(|ends| ends.contains(&place)).flatten());
-    others.extend(threes.filter(|corners| corners.contains(&place)).flatten());
+    others.extend(links.corners().filter(|corners| corners.contains(&place)).flatten());
     others.retain(|other| *other != place);
     others.sort_unstable();
     others.dedup();

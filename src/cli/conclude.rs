@@ -1,8 +1,8 @@
 //! The final report of a run.
 
-use motes::measure::Flocks;
+use motes::measure::{Ensemble, Estimate, Flocks, HeatCapacity};
 use motes::run::{Course, End, Measured, Run};
-use serde_json::json;
+use serde_json::{Value, json};
 
 use super::args::{BackendChoice, DeviceArgs};
 use super::failure::Failure;
@@ -29,12 +29,14 @@ pub fn conclude(
     let worst = if first.total() == 0.0 { run.looks.change } else { run.looks.change / first.total().abs() };
     let clock = run.course.as_ref().and_then(Course::clock);
     let flock = run.series::<Flocks>().and_then(Flocks::ends);
+    let heat = run.series::<HeatCapacity>().map(capacity);
     progress.event(
         "finish",
         json!({ "steps": last.step, "stopped": end.stopped, "seconds": took.as_secs_f64(),
             "stepping_seconds": end.stepping.as_secs_f64(), "steps_per_second": rate,
             "energy": last.total(), "energy_error": last.drift_from(&first), "worst_energy_error": worst,
-            "adaptive": course::event(clock), "order": flock.map(|(_, last)| last.order), "output": output }),
+            "adaptive": course::event(clock), "order": flock.map(|(_, last)| last.order), "heat_capacity": heat,
+            "output": output }),
     );
     let say = |text: String| progress.conclude(&text);
     if end.stopped {
@@ -58,6 +60,18 @@ pub fn conclude(
     say(format!("results in {}: {picture}{tables}, energy.svg, scene.toml, {} states", output.display(), rows.len()));
     film.into_iter().for_each(&say);
     if end.stopped { Err(Failure::Stopped) } else { Ok(()) }
+}
+
+/// The heat capacity of a run, or why it has none.
+fn capacity(measured: &HeatCapacity) -> Value {
+    let estimate = measured.estimate();
+    let (found, why) = (estimate.as_ref().ok(), estimate.as_ref().err());
+    let (value, error) = (found.map(|one: &Estimate| one.value), found.and_then(|one| one.error));
+    let bath = match measured.ensemble() {
+        Ensemble::Energy => None,
+        Ensemble::Bath(temperature) => Some(temperature),
+    };
+    json!({ "per_particle": value, "error": error, "states": measured.states(), "bath": bath, "none": why })
 }
 
 /// The arguments that select the same device.

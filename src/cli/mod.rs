@@ -93,8 +93,8 @@ async fn dispatch(command: Command) -> Result<(), Failure> {
     // Writing files and measuring states use threads, too.
     motes::cpu::threads()?;
     match command {
-        Command::Run(args) => run::run(&args).await,
-        Command::Resume(args) => run::resume(&args).await,
+        Command::Run(args) => Box::pin(run::run(&args)).await,
+        Command::Resume(args) => Box::pin(run::resume(&args)).await,
         Command::View(args) => Box::pin(view::view(&args)).await,
         Command::Check(args) => check::check(&args).await,
         Command::Explain(args) => explain::explain(&args).await,

@@ -23,7 +23,7 @@ pub(crate) const STRAIN: Field<f32> = Field::new("box_strain");
 const CHANGE: Field<Vec4> = Field::new("box_change");
 /// The part of a coordinate by which the corner moves at least: see `shaders/barostat/advance.wgsl`.
 const RESOLVED: f64 = 1.0 / 131_072.0;
-/// The shortest side so far, the largest change, and how many particles had forces that did not add up.
+/// The shortest side so far, the largest change, how many particles had forces that did not add up, and the longest side so far.
 pub(crate) const WATCH: Field<Vec4> = Field::new("box_watch");
 /// Σ m v², the virial, and how many particles have forces that do not add up.
 pub(crate) const TOTAL: Field<Vec4> = Field::new("pressure_total");
@@ -190,6 +190,7 @@ pub(crate) fn advance(problem: &Problem, applies: bool) -> Result<Kernel, Error>
             strain[0] = 0.0;
             let (watch, side) = (&mut host.write(WATCH)?[0], corner[0].x - world.bounds.low.x);
             watch.x = if watch.x == 0.0 { side } else { watch.x.min(side) };
+            watch.w = watch.w.max(side);
         }
         for axis in (0..3).filter(|axis| periodic[*axis] > 0.0) {
             world.bounds.high[axis] = corner[0][axis];

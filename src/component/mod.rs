@@ -213,6 +213,11 @@ pub enum Stage {
     EndOfStep,
     /// After that, where a component needs the pressure: it was measured, if it was due.
     Pressure,
+    /// Where the virial is measured, after an evaluation: kernels that add that of what is not in its laws.
+    Virial {
+        /// As where accelerations are evaluated.
+        earlier: usize,
+    },
 }
 
 /// Properties of a component that depend only on its settings.
@@ -234,6 +239,10 @@ pub struct Properties {
     pub presses: Option<Press>,
     /// Whether it leads to the exits of a floor plan.
     pub navigates: bool,
+    /// Whether it gives pedestrians a direction that they desire.
+    pub leads: bool,
+    /// Whether it sets velocities after all forces: what other forces do to its particles is lost.
+    pub sets_velocities: bool,
     /// Whether it keeps pedestrians on the floor of a plan.
     pub keeps_in: bool,
     /// Whether it breaks bonds.
@@ -254,6 +263,8 @@ pub struct Properties {
     pub thermostat: bool,
     /// The temperature k T of the states that it leads to \[energy\].
     pub temperature: Option<f64>,
+    /// Whether these states have the canonical distribution of that temperature.
+    pub canonical: bool,
     /// Whether it is a barostat, which changes the box.
     pub barostat: Option<Pressed>,
     /// Whether it needs the forces of the positions at which a step begins: `ends_with_forces` of the integrator.
@@ -270,6 +281,10 @@ pub struct Properties {
     pub largest_move: Option<f64>,
     /// Columns with an upper limit: above it the results of the component would be wrong.
     pub largest: Vec<Largest>,
+    /// Whether it sums over waves of the box, of which a larger box has more.
+    pub has_waves: bool,
+    /// The column, a scalar, whose sum over all particles a uniform background neutralizes.
+    pub neutralized: Option<&'static str>,
     /// A remark for the user before a run.
     pub caution: Option<&'static str>,
 }

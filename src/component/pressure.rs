@@ -15,7 +15,7 @@ use crate::visit::{VIRIAL, clear_virial, no_virial};
 const PARTS: Field<Vec4> = Field::new("pressure_parts");
 /// Indirect arguments of its dispatches: the present ones, and those when it is due.
 const GO: &str = "arguments of the pressure";
-const ALL: &str = "pressure_all";
+pub(crate) const ALL: &str = "pressure_all";
 /// Words of the arguments of a dispatch.
 const EACH: u32 = 3;
 /// The part of the sizes of the forces on a particle by which they may fail to add up: some hundred roundings of single precision.
@@ -40,14 +40,17 @@ pub(crate) fn virial(forces: &[Box<dyn Component>], problem: &Problem) -> Result
         let laws = force.laws();
         let mut evaluated = Plan::default();
         force.stage(Stage::Evaluate { earlier: 0 }, &mut evaluated, problem)?;
-        if evaluated.kernels.len() > laws.len() {
+        let before = earlier(forces, place);
+        let mut beside = Plan::default();
+        force.stage(Stage::Virial { earlier: before }, &mut beside, problem)?;
+        if evaluated.kernels.len() > laws.len() && beside.kernels.is_empty() {
             let name = laws.first().map_or_else(|| force.name().to_owned(), |law| law.name.clone());
             return Err(no_virial(&name, "has more than the forces of pairs"));
         }
-        let before = earlier(forces, place);
         for law in laws {
             kernels.extend(law.after(before).virial(problem)?);
         }
+        kernels.extend(beside.kernels);
     }
     Ok(kernels)
 }

@@ -1,18 +1,22 @@
-//! Crowds: pedestrians as discs in a plane, with the forces of Helbing, Farkas & Vicsek (Nature 407, 487, 2000).
+//! Crowds: pedestrians as discs in a plane, with the forces of Helbing, Farkas & Vicsek (Nature 407, 487, 2000), or velocities of the collision-free speed model
+//! (Tordeux, Chraibi & Seyfried, arXiv 1512.05597).
 //!
-//! Where the paper leaves a choice, here:
+//! Where the paper on forces leaves a choice, here:
 //! * friction between two pedestrians is κ g times the velocity of the other relative to the pedestrian, across the line between them; at a wall,
 //!   which does not move, it is −κ g times the pedestrian's own velocity along the wall. Either way it takes energy;
 //! * forces use the velocities of the evaluation, which are those of the half step under kicks and drifts;
 //! * the anisotropy multiplies the exponential only, and not the forces of touch.
 
+mod desire;
 mod keep;
 mod places;
 mod press;
 mod sight;
+mod spacing;
 mod walls;
 mod ways;
 
+pub(crate) use desire::{DIRECTION, Drive, desired_direction, is_followed};
 #[cfg(feature = "scene")]
 pub(crate) use keep::CORRECTIONS;
 pub(crate) use keep::{allowed_columns, begin, keep};
@@ -20,6 +24,7 @@ pub(crate) use places::{have_ways, on_the_floor, reach_exits};
 pub(crate) use press::{DECAY, FRICTION, REPULSION, STIFFNESS};
 pub use press::{Press, STEEPEST};
 pub(crate) use sight::Sight;
+pub(crate) use spacing::{Repulsion, Spacing, columns as spacing_columns, set_off};
 
 pub(crate) use walls::{pushed, rounded, table};
 pub use ways::EXIT_DISTANCE;

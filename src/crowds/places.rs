@@ -7,7 +7,8 @@ use crate::floor_plan::FloorPlan;
 use crate::life::Life;
 use crate::state::State;
 
-/// Off the floor by this part of the largest coordinate is rounding: a pedestrian is put back to a wall in single precision.
+/// Off the floor by this part of the largest coordinate is rounding: a pedestrian is put back to a wall in single precision. None begins so near to one,
+/// where it has no direction from the wall.
 const ROUNDING: f64 = 4.0 * f32::EPSILON as f64;
 
 /// The particles that are on the floor, or will be, with their positions.
@@ -21,11 +22,12 @@ fn places(state: &State) -> impl Iterator<Item = (usize, &DVec3)> {
 pub(crate) fn on_the_floor(plan: &FloorPlan, state: &State) -> Result<(), Error> {
     let (low, high) = plan.extent();
     let rounding = ROUNDING * low.abs().max(high.abs()).max_element();
-    let off = |x: &DVec3| !plan.holds(x.truncate()) && plan.distance(x.truncate()) > rounding;
+    let (begins, is_on_a_wall) = (state.step == 0, |x: &DVec3| plan.distance(x.truncate()) <= rounding);
+    let off = |x: &DVec3| if plan.holds(x.truncate()) { begins && is_on_a_wall(x) } else { begins || !is_on_a_wall(x) };
     let mut all = places(state).filter(|(_, x)| off(x));
     let Some((first, x)) = all.next() else { return Ok(()) };
     Err(Error::Scene(format!(
-        "{} particles are in a wall or off the floor of the plan, the first of them particle {first} at {} {}: move them into the POLYGON",
+        "{} particles are on or in a wall, or off the floor of the plan, the first of them particle {first} at {} {}: move them into the POLYGON",
         1 + all.count(),
         x.x,
         x.y

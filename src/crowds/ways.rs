@@ -2,9 +2,9 @@
 
 use std::sync::Arc;
 
-use glam::{DVec2, DVec3, DVec4};
+use glam::{DVec2, DVec3};
 
-use super::desired_speed_of;
+use super::Drive;
 use crate::error::Error;
 use crate::floor_plan::{Cells, FloorPlan};
 use crate::kernel::{
@@ -139,7 +139,7 @@ pub(crate) fn inside(problem: &Problem) -> Result<Kernel, Error> {
 }
 
 /// The law that drives pedestrians of a species, or all, to exits, within a relaxation time.
-pub(crate) fn drive(plan: &FloorPlan, wgsl: Source, time: f64, species: Option<u32>) -> Law {
+pub(crate) fn drive(plan: &FloorPlan, wgsl: Source, (time, species): (f64, Option<u32>), is_followed: bool) -> Law {
     let cells = plan.cells();
     let [width, height] = cells.count.map(|n| Scalar::Uint(u32::try_from(n).unwrap_or(u32::MAX)));
     let low = cells.low.as_vec2();
@@ -151,17 +151,12 @@ pub(crate) fn drive(plan: &FloorPlan, wgsl: Source, time: f64, species: Option<u
         ("height", height),
         ("species", Scalar::Uint(species.unwrap_or(u32::MAX))),
     ];
-    let open = (OPEN.into(), cells.open.clone());
     let values = values.map(|(name, value)| (name.to_owned(), value)).to_vec();
-    let rule = move |me: &Particle, _: &World| {
-        if species.is_some_and(|own| own != me.species()) {
-            return DVec4::ZERO;
-        }
-        let way = way(&cells, me.all(EXIT_DISTANCE.name), me.position.truncate() - cells.low);
-        ((desired_speed_of(me) * way - me.velocity) / time).extend(0.0)
-    };
-    let law = Law::each("navigate", wgsl, values, rule);
-    Law { tables: vec![open], ..law }
+    let tables = vec![(OPEN.into(), cells.open.clone())];
+    let drive = Drive { name: "navigate", wgsl, values, tables, time, species };
+    drive.law(is_followed, move |me: &Particle, _: &World| {
+        way(&cells, me.all(EXIT_DISTANCE.name), me.position.truncate() - cells.low)
+    })
 }
 
 /// The direction −∇T / |∇T| at a point relative to the lowest corner; 0 where there is no way.

@@ -1,5 +1,7 @@
 //! Remarks on a setup before it runs.
 
+use std::collections::BTreeSet;
+
 use crate::error::Error;
 use crate::forces::{Law, Over};
 use crate::kernel::Bounds;
@@ -10,7 +12,7 @@ use crate::motion::Hold;
 use crate::simulation::Setup;
 use glam::{DVec3, DVec4};
 
-use super::{Remark, births, jumps, rounding, solves};
+use super::{Remark, births, crowds, jumps, rounding, solves};
 
 /// The acceleration of a particle at rest at a position, by a law's reference.
 pub fn acceleration_at(
@@ -86,6 +88,7 @@ fn idle(links: &Links, laws: &[Law]) -> Vec<Remark> {
     let ties = [
         (links.springs.len(), Over::Links, "springs", "spring"),
         (links.joints.len(), Over::Joints, "joints", "joint"),
+        (links.dihedrals.len(), Over::Dihedrals, "dihedrals", "dihedral"),
     ];
     let idle = ties.into_iter().filter(|(n, over, ..)| *n > 0 && laws.iter().all(|law| law.over != *over));
     idle.map(|(n, _, what, force)| {
@@ -122,14 +125,14 @@ pub fn conserved(setup: &Setup) -> Result<Conserved, Error> {
         conserved.angular_momentum &= law.reciprocal;
         // Forces that are not equal and opposite conserve nothing.
         conserved.energy &= law.over == Over::Each || law.reciprocal;
-        if matches!(law.over, Over::Links | Over::Joints | Over::Triangles) {
+        if matches!(law.over, Over::Links | Over::Joints | Over::Dihedrals | Over::Triangles) {
             // Only the links matter here; damping dissipates energy.
             conserved.energy &= law.over != Over::Links || !damped(&setup.state.links);
             continue;
         }
         // What depends on velocity takes energy, and what keeps history of pairs is no function of positions.
         conserved.energy &= match &law.reference {
-            Some(reference) if !law.remembers() && !law.depends_on_velocity(&problem)? => {
+            Some(reference) if law.accelerates() && !law.remembers() && !law.depends_on_velocity(&problem)? => {
                 keeps_energy(reference, &setup.bounds)?
             }
             _ => false,
@@ -149,6 +152,10 @@ pub fn conserved(setup: &Setup) -> Result<Conserved, Error> {
         conserved.takers.extend(properties.dissipates);
         conserved.takers.extend(properties.dissipates_at_walls.into_iter().filter(|_| !held.is_empty()));
         constrained |= properties.constrains;
+    }
+    for names in [&mut conserved.takers, &mut conserved.turners] {
+        let mut known = BTreeSet::new();
+        names.retain(|name| known.insert(*name));
     }
     conserved.energy &= conserved.takers.is_empty();
     if constrained {
@@ -196,6 +203,7 @@ pub fn advice(setup: &Setup, end: Option<f64>) -> Result<Vec<Remark>, Error> {
     remarks.extend(idle(&setup.state.links, &laws));
     remarks.extend(super::bonds::overlong(setup, &laws));
     remarks.extend(super::images::beyond(setup, &laws));
+    remarks.extend(super::images::neutralized(setup));
     let implicit = setup.integrator.is_implicit();
     if implicit {
         remarks.push(solves::remark(setup)?);
@@ -224,7 +232,7 @@ pub fn advice(setup: &Setup, end: Option<f64>) -> Result<Vec<Remark>, Error> {
         let name = law.name.clone();
         let (without_reference, over, offered) = (law.reference.is_none(), law.over, law.jacobian.is_some());
         let (all_images, is_own) = (law.distant.images, law.wgsl.law);
-        if let Some(reference) = law.reference.as_ref().filter(|_| setup.bounds.dimensions == 2) {
+        if let Some(reference) = law.reference.as_ref().filter(|_| setup.bounds.dimensions == 2 && law.accelerates()) {
             in_the_plane(&name, reference, setup)?;
         }
         let reads_velocity = law.depends_on_velocity(&problem)?;
@@ -270,7 +278,7 @@ pub fn advice(setup: &Setup, end: Option<f64>) -> Result<Vec<Remark>, Error> {
         if its.is_empty() {
             continue;
         }
-        if properties.evaluated_last {
+        if properties.evaluated_last && properties.makes_fluid {
             if !its.contains(&name) {
                 let text = format!(
                     "the fluid solves for the pressure of a whole step, evaluated at its start: it requires {}, not {name}",
@@ -285,7 +293,9 @@ pub fn advice(setup: &Setup, end: Option<f64>) -> Result<Vec<Remark>, Error> {
             let text = format!("`{law}` is a rule for whole steps: it requires {}, not {name}", its.join(" or "));
             remarks.push(Remark::note("other-integrator", text));
         }
-        if setup.forces.iter().filter(|force| !force.laws().is_empty()).count() > 1 {
+        if properties.sets_velocities {
+            remarks.extend(crowds::overridden(setup, force.name()));
+        } else if setup.forces.iter().filter(|force| !force.laws().is_empty()).count() > 1 {
             let text = format!(
                 "{} sets velocities itself: combined with other forces it is only a relaxation towards them",
                 force.laws().first().map_or_else(String::new, |law| format!("`{}`", law.name))

@@ -103,6 +103,29 @@ fn walls(setup: &Setup) -> Option<Remark> {
     )
 }
 
+/// Remarks on what a component does that sets velocities: what leads pedestrians, and what is lost.
+pub fn overridden(setup: &Setup, name: &str) -> Vec<Remark> {
+    let mut remarks = Vec::new();
+    let all = || setup.forces.iter().map(|force| (force, force.properties()));
+    let gives = |law: &crate::visit::Law| law.into.iter().any(|column| column == crowds::DIRECTION.name);
+    if !all().any(|(force, its)| its.leads || force.laws().iter().any(gives)) {
+        let text =
+            format!("`{name}` follows the desired directions of pedestrians, and nothing gives them any: they stand");
+        remarks
+            .push(Remark::warning("no-direction", text).advice("add a [[force]] of kind = \"walk\" or \"navigate\""));
+    }
+    let lost = all().filter(|(force, its)| !its.leads && !its.sets_velocities && !force.laws().is_empty());
+    let lost: Vec<String> = lost.map(|(force, _)| format!("`{}`", force.laws()[0].name)).collect();
+    if !lost.is_empty() {
+        let text = format!(
+            "`{name}` sets velocities after all forces: of its pedestrians what is added by {} is lost",
+            lost.join(", ")
+        );
+        remarks.push(Remark::note("velocities-set", text));
+    }
+    remarks
+}
+
 /// Refuses cells too large for pedestrians, pedestrians that have no way to an exit, and exits to which no way leads.
 ///
 /// # Errors

@@ -157,7 +157,9 @@ pub struct Weight {
 fn weight(setup: &Setup) -> Result<Weight, Error> {
     let problem = setup.problem(Machine::HOST)?;
     let mut weight = Weight::default();
-    for law in setup.forces.iter().flat_map(|force| force.laws()).filter(|law| law.over == Over::Each) {
+    for law in
+        setup.forces.iter().flat_map(|force| force.laws()).filter(|law| law.over == Over::Each && law.accelerates())
+    {
         if let (Some(reference), false) = (&law.reference, law.depends_on_velocity(&problem)?) {
             let places = setup.state.position();
             let middle = places.iter().sum::<DVec3>() / places.len() as f64;

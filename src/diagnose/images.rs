@@ -1,4 +1,4 @@
-//! Ranges beyond half of a periodic box.
+//! Images of a periodic box: ranges beyond half of it, and charges of it as a whole.
 
 use super::Remark;
 use crate::kernel::Side;
@@ -23,4 +23,22 @@ pub fn beyond(setup: &Setup, laws: &[Law]) -> Vec<Remark> {
         Some(remark.advice("choose a shorter range or a larger box"))
     };
     laws.iter().filter_map(of).collect()
+}
+
+/// A column that a uniform background neutralizes, and that does not add up to nothing by itself.
+pub fn neutralized(setup: &Setup) -> Option<Remark> {
+    let (force, name) = setup.forces.iter().find_map(|force| Some((force, force.properties().neutralized?)))?;
+    let values = setup.state.scalar(name)?;
+    let active = || values.iter().enumerate().filter(|(i, _)| setup.state.is_active(*i)).map(|(_, value)| *value);
+    let (sum, size) = (active().sum::<f64>(), active().map(f64::abs).sum::<f64>());
+    // Values of a file have six digits or so.
+    let text = || {
+        format!(
+            "the column `{name}` adds up to {sum:.6}: the sums of `{}` over all images have a uniform background that neutralizes it, with an energy and a \
+             pressure of its own",
+            force.name()
+        )
+    };
+    (sum.abs() > 1e-5 * size)
+        .then(|| Remark::note("net-charge", text()).with("sum", sum).advice("see whether it is meant"))
 }

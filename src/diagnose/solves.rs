@@ -36,7 +36,7 @@ pub fn remark(setup: &Setup) -> Result<Remark, Error> {
 /// Whether a law is the same everywhere, at any velocity: no step is too long for it.
 fn is_constant(law: &Law, setup: &Setup) -> Result<bool, Error> {
     let (Over::Each, Some(reference)) = (law.over, &law.reference) else { return Ok(false) };
-    if law.depends_on_velocity(&setup.problem(Machine::HOST)?)? {
+    if !law.accelerates() || law.depends_on_velocity(&setup.problem(Machine::HOST)?)? {
         return Ok(false);
     }
     let places = [DVec3::ZERO, DVec3::new(0.31, -0.23, 0.17), DVec3::new(-11.0, 17.0, 13.0)];

@@ -8,8 +8,8 @@ use crate::stability::Verdict;
 /// The spring that limits the step.
 #[must_use]
 pub fn culprit(verdict: &Verdict, setup: &Setup) -> String {
-    if !verdict.by_damping && verdict.joints > verdict.bound.stiffness.sum {
-        return format!("the bending stiffness of the joints (ω² up to {:.1e})", verdict.joints);
+    if !verdict.by_damping && verdict.bending > verdict.bound.stiffness.sum {
+        return format!("the stiffness of joints and dihedrals (ω² up to {:.1e})", verdict.bending);
     }
     let row = if verdict.by_damping { verdict.bound.damping } else { verdict.bound.stiffness };
     let what = if verdict.by_damping { "damping" } else { "stiffness" };
@@ -80,8 +80,8 @@ fn trouble(verdict: &Verdict, setup: &Setup) -> Option<(String, String)> {
 /// Integrators that are stable at any step, after a comma.
 #[must_use]
 pub fn others(setup: &Setup, verdict: &Verdict) -> String {
-    // Joints stay explicit under all of them.
-    if verdict.joints > 0.0 {
+    // Joints and dihedrals stay explicit under all of them.
+    if verdict.bending > 0.0 {
         return String::new();
     }
     let bears = |entry: &&Entry| entry.by_default().damps_at_any_step() && entry.name != setup.integrator.name();

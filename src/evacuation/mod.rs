@@ -20,6 +20,6 @@ pub use map::Map;
 pub use passage::Passage;
 pub use record::Record;
 pub use report::{Left, Pedestrian, Report, SHARE};
-pub use start::{Crowd, Start, scene};
+pub use start::{Crowd, Model, Start, scene};
 pub use text::text;
 pub use ways::Ways;

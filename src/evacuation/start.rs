@@ -14,8 +14,8 @@ use crate::shapes::random::Random;
 
 /// Places tried for one pedestrian, as of the shape `crowd`.
 const TRIES: u32 = 20_000;
-/// Radii are uniform between these \[m\], as of the shape `crowd`.
-const RADII: [f64; 2] = [0.25, 0.35];
+/// The side of a square is at least the largest diameter of any model \[m\].
+const SQUARE: f64 = 0.7;
 /// Deviation, minimum and maximum of desired speeds as parts of their mean (Weidmann 1993: 0.26, 0.5 and 2.2 of 1.34 m/s).
 const SPREAD: [f64; 3] = [0.26 / 1.34, 0.5 / 1.34, 2.2 / 1.34];
 /// The mass of each pedestrian \[kg\].
@@ -30,12 +30,88 @@ const CONTACTS: f64 = 7.0;
 const MOST_STEPS: f64 = 10_000.0;
 /// The largest step that friction between the fastest allows is divided by this.
 const SAFE: f64 = 0.97;
+/// The distance in which walls turn pedestrians of the collision-free speed model away, which the fastest do not go in a step \[m\].
+const TURNED: f64 = 0.02;
+
+/// How pedestrians move.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Model {
+    /// By forces: Helbing, Farkas & Vicsek (2000).
+    #[default]
+    SocialForce,
+    /// By velocities: Tordeux, Chraibi & Seyfried (2015).
+    CollisionFreeSpeed,
+}
+
+impl Model {
+    /// Every model.
+    pub const ALL: [Self; 2] = [Self::SocialForce, Self::CollisionFreeSpeed];
+    /// Its name, which is that of the component.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::SocialForce => "social_force",
+            Self::CollisionFreeSpeed => "collision_free_speed",
+        }
+    }
+    /// In a sentence: pedestrians follow …
+    #[must_use]
+    pub fn about(self) -> &'static str {
+        match self {
+            Self::SocialForce => "the social force model of Helbing, Farkas & Vicsek (2000)",
+            Self::CollisionFreeSpeed => "the collision-free speed model of Tordeux, Chraibi & Seyfried (2015)",
+        }
+    }
+    /// Radii are uniform between these \[m\]: as of the shape `crowd`, where shoulders press; about that of JuPedSim, 0.2 m, where they do not.
+    #[must_use]
+    pub fn radii(self) -> [f64; 2] {
+        match self {
+            Self::SocialForce => [0.25, 0.35],
+            Self::CollisionFreeSpeed => [0.18, 0.22],
+        }
+    }
+    /// The longest step for pedestrians whose fastest has this speed \[s\].
+    fn longest_step(self, fastest: f64) -> f64 {
+        match self {
+            // The overlap g of two that meet head on at the largest speed: 2 κ g / m times dt is 4 / CONTACTS at most, as `check` asks.
+            Self::SocialForce => {
+                let press = Press::of(&Settings::defaults(&[REPULSION, DECAY, STIFFNESS, FRICTION]));
+                let overlap = fastest * (2.0 * MASS / press.stiffness).sqrt();
+                SAFE * 2.0 / CONTACTS * MASS / (press.friction * overlap)
+            }
+            Self::CollisionFreeSpeed => TURNED / fastest,
+        }
+    }
+    /// The integrator of its scene.
+    fn integrator(self) -> &'static str {
+        match self {
+            Self::SocialForce => "leapfrog",
+            Self::CollisionFreeSpeed => "symplectic_euler",
+        }
+    }
+    /// Its forces beside `navigate`.
+    fn forces(self, seed: u64, fastest: f64) -> String {
+        match self {
+            Self::SocialForce => format!(
+                "[[force]]\nkind = \"social_force\"\n\n[[force]]\nkind = \"social_wall\"\n\n[[force]]\nkind = \"wander\"\nstrength = {WANDER:?}\nseed = {seed}\n"
+            ),
+            Self::CollisionFreeSpeed => {
+                let own = Settings::defaults(crate::interactions::collision_free_speed::KEYS);
+                let needed = 2.0 * self.radii()[1] + fastest * own.number("time_gap");
+                let range = own.number("range").max((10.0 * needed).ceil() / 10.0);
+                format!("[[force]]\nkind = \"collision_free_speed\"\nrange = {range:?}\n")
+            }
+        }
+    }
+}
 
 /// The pedestrians of an evacuation.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Crowd {
     /// The number.
     pub people: u32,
+    /// How they move.
+    pub model: Model,
     /// The seed of places, radii and speeds.
     pub seed: u64,
     /// The mean of desired speeds \[m/s\].
@@ -70,11 +146,7 @@ impl Start {
 /// # Errors
 /// [`Error::Scene`] where there is no room for so many.
 pub fn scene(plan: &FloorPlan, (wkt, about): (&str, &str), crowd: &Crowd, limit: f64) -> Result<Start, Error> {
-    // The overlap g of two that meet head on at the largest speed: 2 κ g / m times dt is 4 / CONTACTS at most, as `check` asks.
-    let fastest = SPREAD[2] * crowd.speed;
-    let press = Press::of(&Settings::defaults(&[REPULSION, DECAY, STIFFNESS, FRICTION]));
-    let overlap = fastest * (2.0 * MASS / press.stiffness).sqrt();
-    let longest = SAFE * 2.0 / CONTACTS * MASS / (press.friction * overlap);
+    let longest = crowd.model.longest_step(SPREAD[2] * crowd.speed);
     let parts = (SAMPLE / longest).ceil().max(1.0);
     if parts > MOST_STEPS {
         return Err(Error::Scene(format!(
@@ -93,16 +165,17 @@ pub fn scene(plan: &FloorPlan, (wkt, about): (&str, &str), crowd: &Crowd, limit:
     let height = (960.0 * size.y / size.x).clamp(240.0, 1920.0).round();
     let comment = format!("# {}\n", about.replace('\n', "\n# "));
     let text = format!(
-        "{comment}\n[simulation]\ndt = {dt:?}\nuntil = {limit:?}\nintegrator = \"leapfrog\"\n\n[box]\nsize = [{:?}, {:?}, 0]\nlow = [{:?}, {:?}, 0]\nboundary = \"open\"\n\n\
-         [plan]\ncell = {cell:?}\nreach = {reach:?}\nexits = [{}]\nwkt = \"\"\"\n{wkt}\n\"\"\"\n\n[[particles]]\nbodies = [\n{bodies}]\n\n[[force]]\nkind = \"navigate\"\n\n[[force]]\nkind = \"social_force\"\n\n\
-         [[force]]\nkind = \"social_wall\"\n\n[[force]]\nkind = \"wander\"\nstrength = {WANDER:?}\nseed = {}\n\n[output]\nevery = {every}\nformats = []\n\n[picture]\nwidth = 960\nheight = {height:?}\neye = [0, 0, 1]\nup = [0, 1, 0]\n\
+        "{comment}\n[simulation]\ndt = {dt:?}\nuntil = {limit:?}\nintegrator = {:?}\n\n[box]\nsize = [{:?}, {:?}, 0]\nlow = [{:?}, {:?}, 0]\nboundary = \"open\"\n\n\
+         [plan]\ncell = {cell:?}\nreach = {reach:?}\nexits = [{}]\nwkt = \"\"\"\n{wkt}\n\"\"\"\n\n[[particles]]\nbodies = [\n{bodies}]\n\n[[force]]\nkind = \"navigate\"\n\n{}\n\
+         [output]\nevery = {every}\nformats = []\n\n[picture]\nwidth = 960\nheight = {height:?}\neye = [0, 0, 1]\nup = [0, 1, 0]\n\
          projection = \"orthographic\"\nauto_frame = false\ncenter = [{:?}, {:?}, 0]\nextent = {extent:?}\ncolor = \"speed\"\n",
+        crowd.model.integrator(),
         size.x,
         size.y,
         low.x,
         low.y,
         names.join(", "),
-        crowd.seed,
+        crowd.model.forces(crowd.seed, SPREAD[2] * crowd.speed),
         middle.x,
         middle.y
     );
@@ -116,7 +189,7 @@ struct Placed(HashMap<(i64, i64), Vec<(DVec2, f64)>>);
 impl Placed {
     #[expect(clippy::cast_possible_truncation, reason = "plans are small against the numbers of squares")]
     fn square(x: DVec2) -> (i64, i64) {
-        let place = (x / (2.0 * RADII[1])).floor();
+        let place = (x / SQUARE).floor();
         (place.x as i64, place.y as i64)
     }
     fn leave_free(&self, x: DVec2, radius: f64) -> bool {
@@ -139,10 +212,11 @@ fn bodies(plan: &FloorPlan, crowd: &Crowd) -> Result<String, Error> {
     let whole: f64 = sizes.iter().sum();
     let (cells, mut random) = (plan.cells(), Random::new(crowd.seed));
     let steps = cells.steps();
+    let [least, most] = crowd.model.radii();
     let mut placed = Placed::default();
     let mut text = String::new();
     for i in 0..crowd.people {
-        let radius = random.between(RADII[0], RADII[1]);
+        let radius = random.between(least, most);
         let free = |x: DVec2| {
             let apart = |exit: &crate::floor_plan::Exit| exit.distance(x) > exit.reach + radius;
             placed.leave_free(x, radius)

@@ -6,6 +6,7 @@ use glam::{DVec3, DVec4};
 
 use super::wind::Gusts;
 use super::{Component, Law, Over, params};
+use crate::links::Corner;
 use crate::settings::{Key, Kind, Settings, Value};
 
 /// The keys in a scene.
@@ -43,7 +44,7 @@ impl Component for Air {
         let [density, drag, lift] = ["density", "drag", "lift"].map(|name| self.0.number(name));
         let gusts = Gusts::new(self.0.vector("wind"), &self.0);
         let values = params(&self.0, &["wind", "density", "drag", "lift", "gust", "period", "wavelength"]);
-        vec![Law::corners("air", Over::Triangles, crate::shader!("interactions/air.wgsl"), values, move |at, _, world| {
+        vec![Law::corners("air", Over::Triangles, crate::shader!("interactions/air.wgsl"), values, move |at, _: &Corner, world| {
             let [ab, ac] = [1, 2].map(|k| world.bounds.shortest(at[k].position - at[0].position));
             let air = gusts.air(at[0].position, world.time);
             let w = at.iter().map(|body| body.velocity).sum::<DVec3>() / 3.0 - air;

@@ -142,6 +142,7 @@ impl Component for BornMayer {
     }
 }
 
-fn charge(particle: &Particle) -> f64 {
+/// Its charge; 0 where there is no such column.
+pub(super) fn charge(particle: &Particle) -> f64 {
     particle.scalar("charge").unwrap_or(0.0)
 }

@@ -251,7 +251,7 @@ impl Component for Fluid {
                 sph::limits(&self.boxed(), self.over(), Limits { sound, alpha: self.friction().alpha }, plan, problem)
             }
             Stage::EndOfStep if self.solves() => self.dfsph(self.medium(&problem.bounds)?, problem)?.conclude(plan),
-            Stage::AfterKick | Stage::AfterDrift { .. } | Stage::AfterAdvance { .. } | Stage::StartOfStep | Stage::Pressure | Stage::EndOfStep => Ok(()),
+            Stage::AfterKick | Stage::AfterDrift { .. } | Stage::AfterAdvance { .. } | Stage::StartOfStep | Stage::Pressure | Stage::EndOfStep | Stage::Virial { .. } => Ok(()),
         }
     }
     fn laws(&self) -> Vec<Law> {

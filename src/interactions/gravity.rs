@@ -5,9 +5,9 @@ use std::sync::Arc;
 
 use glam::{DVec3, DVec4};
 
-use super::ewald_split::{FITTED, LEAST, Split};
-use super::{Component, Law, Over, Problem, Properties, Stage, evaluate, ewald, numbered, params};
+use super::{Component, Law, Over, Problem, Properties, Stage, evaluate, numbered, params};
 use crate::error::Error;
+use crate::ewald::{self, FITTED, LEAST, Split};
 use crate::kernel::{Plan, Scalar, Side, Source, World};
 use crate::settings::{Key, Kind, Settings, Value};
 use crate::tree::Opening;
@@ -143,14 +143,7 @@ impl Component for Gravity {
         self.fits(problem)?;
         evaluate(self.laws(), earlier, plan, problem)?;
         if self.all_images() {
-            let sources = [
-                crate::shader!("interactions/gravity_waves.wgsl"),
-                crate::shader!("interactions/gravity_structure.wgsl"),
-                crate::shader!("interactions/gravity_structure_sum.wgsl"),
-                crate::shader!("interactions/gravity_images.wgsl"),
-            ];
-            let world = [crate::shader!("world.wgsl"), crate::shader!("fields.wgsl"), crate::shader!("law/circle.wgsl")];
-            let [structure, images] = ewald::kernels(&self.split(), self.0.number("g"), &world, sources, problem)?;
+            let [structure, images] = ewald::kernels(&self.split(), self.0.number("g"), problem)?;
             let mine = structure.tables.iter().find(|(name, _)| name == "gravity_wave").map(|(_, words)| words);
             let first = plan.table("gravity_wave");
             if let (Some(mine), Some(first)) = (mine, first)

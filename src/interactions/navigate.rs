@@ -43,6 +43,7 @@ impl Component for Navigate {
             constrains: true,
             dissipates: vec!["walking"],
             navigates: true,
+            leads: true,
             fixed_step: Some("navigate counts the time of each pedestrian in steps"),
             ..Properties::default()
         }
@@ -53,7 +54,7 @@ impl Component for Navigate {
             Stage::Start => crowds::kernels(floor, plan),
             Stage::Evaluate { earlier } => {
                 let (time, species) = (self.0.number("relaxation_time"), self.0.species("species"));
-                let law = crowds::drive(floor, crate::shader!("interactions/navigate.wgsl"), time, species);
+                let law = crowds::drive(floor, crate::shader!("interactions/navigate.wgsl"), (time, species), crowds::is_followed(problem));
                 evaluate(vec![law], earlier, plan, problem)
             }
             Stage::EndOfStep => {

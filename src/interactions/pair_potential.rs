@@ -143,7 +143,8 @@ impl Truncation {
     fn ended(self, here: Energy, end: Energy, r: f64) -> Energy {
         let value = here.value - end.value - (r - self.range) * end.slope;
         let slope = here.slope - end.slope;
-        if r <= self.onset {
+        // A pair in range by single precision may be beyond it by double precision.
+        if r <= self.onset || self.onset >= self.range {
             return Energy { value, slope };
         }
         let [range, onset, square] = [self.range, self.onset, r].map(|x| x * x);
@@ -178,7 +179,12 @@ pub(super) fn law(
         let end = truncation.taken(energy(&row.values, truncation.range));
         truncation.ended(energy(&row.values, distance), end, distance)
     };
-    Law { pairs: Some(table), ..central((name, wgsl), over, params, rows, pair) }
+    let smoothed = truncation.onset < truncation.range;
+    let constants = vec![
+        ("SMOOTHED", f64::from(u8::from(smoothed))),
+        ("SHIFTED", f64::from(u8::from(!smoothed && !truncation.slope))),
+    ];
+    Law { pairs: Some(table), constants, ..central((name, wgsl), over, params, rows, pair) }
 }
 
 /// The same of an energy that ends by itself.

@@ -4,10 +4,10 @@ use std::borrow::Cow;
 
 use glam::DVec3;
 
-use super::{Component, EACH, Law, SPECIES, params, species};
-use crate::crowds;
+use super::{Component, EACH, Law, SPECIES, Stage, evaluate, params, species};
+use crate::crowds::{self, Drive};
 use crate::error::Error;
-use crate::kernel::{Bounds, Column, Scalar};
+use crate::kernel::{Bounds, Column, Plan, Problem, Scalar};
 use crate::settings::{Key, Kind, Settings, Value};
 
 /// The keys in a scene.
@@ -31,6 +31,23 @@ impl Walk {
     pub fn new(settings: &Settings) -> Self {
         Self(settings.clone())
     }
+    fn law(&self, is_followed: bool) -> Law {
+        let (direction, target) = (self.0.vector("direction").normalize_or_zero(), self.0.vector("target"));
+        let (time, to_target) = (self.0.number("relaxation_time"), self.0.text("to") == "target");
+        let (kind, kind_value) = species(&self.0, "species");
+        let mut values = params(&self.0, &["relaxation_time"]);
+        values.extend([
+            ("direction".to_owned(), Scalar::Vector(direction)),
+            ("destination".to_owned(), Scalar::Vector(target)),
+            ("to_target".to_owned(), Scalar::Uint(u32::from(to_target))),
+            ("species".to_owned(), kind_value),
+        ]);
+        let wgsl = crate::shader!("interactions/walk.wgsl");
+        let drive = Drive { name: "walk", wgsl, values, tables: Vec::new(), time, species: kind.0 };
+        drive.law(is_followed, move |me, world| {
+            if to_target { world.bounds.shortest(target - me.position).normalize_or_zero() } else { direction }
+        })
+    }
 }
 
 impl Component for Walk {
@@ -49,26 +66,17 @@ impl Component for Walk {
         }
     }
     fn properties(&self) -> super::Properties {
-        super::Properties { dissipates: vec!["walking"], ..super::Properties::default() }
+        super::Properties { leads: true, dissipates: vec!["walking"], ..super::Properties::default() }
     }
     fn laws(&self) -> Vec<Law> {
-        let (direction, target) = (self.0.vector("direction").normalize_or_zero(), self.0.vector("target"));
-        let (time, to_target) = (self.0.number("relaxation_time"), self.0.text("to") == "target");
-        let (kind, kind_value) = species(&self.0, "species");
-        let mut values = params(&self.0, &["relaxation_time"]);
-        values.extend([
-            ("direction".to_owned(), Scalar::Vector(direction)),
-            ("destination".to_owned(), Scalar::Vector(target)),
-            ("to_target".to_owned(), Scalar::Uint(u32::from(to_target))),
-            ("species".to_owned(), kind_value),
-        ]);
-        vec![Law::each("walk", crate::shader!("interactions/walk.wgsl"), values, move |me, world| {
-            if !kind.has(me) {
-                return glam::DVec4::ZERO;
+        vec![self.law(false)]
+    }
+    fn stage(&self, stage: Stage, plan: &mut Plan, problem: &Problem) -> Result<(), Error> {
+        match stage {
+            Stage::Evaluate { earlier } => {
+                evaluate(vec![self.law(crowds::is_followed(problem))], earlier, plan, problem)
             }
-            let way = world.bounds.shortest(target - me.position).normalize_or_zero();
-            let way = if to_target { way } else { direction };
-            ((crowds::desired_speed_of(me) * way - me.velocity) / time).extend(0.0)
-        })]
+            _ => Ok(()),
+        }
     }
 }

@@ -54,7 +54,7 @@ pub use pair::{Pair, Way};
 pub use pass::{Indirect, Pass, Threads};
 pub use plan::{Kernel, Name, Plan, Reference, Table, short};
 pub use precision::{LOW_WORDS, POSITION_LOW, Precision, VELOCITY_LOW, high_words, joined, low_words, remainders};
-pub use problem::{Neighbors, Problem, extent};
+pub use problem::{Elastic, Neighbors, Problem, extent};
 pub use reflect::{Access, Binding, Reflection};
 pub use shader::{Shader, Source};
 pub use solver::{LEAST_TOLERANCE, MOST_ITERATIONS, MOST_SOLVES, Solver};

@@ -24,8 +24,8 @@ pub struct Problem {
     pub machine: Machine,
     /// The box and its boundaries.
     pub bounds: Bounds,
-    /// Where the box changes: the part of its sides, as they are when the plan is written, for which cells are wide enough.
-    pub elastic: Option<f64>,
+    /// How far the box may change, if a barostat changes it.
+    pub elastic: Option<Elastic>,
     /// The lowest and the highest corner of the initial positions \[length\].
     pub extent: (DVec3, DVec3),
     /// The number of particles of each species; empty where there is only one.
@@ -66,6 +66,17 @@ pub struct Problem {
     pub skin: Option<f64>,
     /// The neighbour counts at the start within the ranges for which a law requires them.
     pub neighbors: Vec<Neighbors>,
+}
+
+/// How far a box may change before plans are written anew.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Elastic {
+    /// The part of its sides, as they are when a plan is written, for which cells are wide enough.
+    pub least: f64,
+    /// The multiple of these sides for which there are waves enough.
+    pub most: f64,
+    /// The sides at the start of the run \[length\], which determine the order of waves.
+    pub start: DVec3,
 }
 
 /// The mean number of neighbours within a range.
@@ -226,9 +237,9 @@ impl Problem {
     pub fn is_held(&self, id: usize) -> bool {
         self.mask.get(id).is_some_and(|word| *word > 0)
     }
-    /// The same in a box that changes, with cells that are wide enough in one whose sides are this part as long; or not.
+    /// The same in a box that changes so far; or not.
     #[must_use]
-    pub fn stretched(self, elastic: Option<f64>) -> Self {
+    pub fn stretched(self, elastic: Option<Elastic>) -> Self {
         Self { elastic, ..self }
     }
     /// The same with links that may break.

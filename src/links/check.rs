@@ -1,8 +1,9 @@
 //! Validation of links.
 
 use std::collections::BTreeSet;
+use std::f64::consts::{PI, TAU};
 
-use super::{Link, Links, MOST_LINKS, Rod};
+use super::{Dihedral, Joint, Link, Links, MOST_LINKS, Rod};
 use crate::error::Error;
 
 impl Links {
@@ -35,10 +36,29 @@ impl Links {
             rod.check(&what)?;
             twice(&what, rod.ends, &mut pairs)?;
         }
+        let (mut bent, mut turned) = (BTreeSet::new(), BTreeSet::new());
         for (n, joint) in self.joints.iter().enumerate() {
             let what = format!("joint {n}");
             apart(&what, &joint.ids, masses)?;
-            not_negative(&what, "stiffness", joint.stiffness)?;
+            joint.check(&what)?;
+            let [a, b, c] = joint.ids;
+            if !bent.insert([a.min(c), b, a.max(c)]) {
+                return Err(Error::Scene(format!(
+                    "{what} bends particles {a}, {b} and {c}, as another one does: add up their stiffness"
+                )));
+            }
+        }
+        for (n, dihedral) in self.dihedrals.iter().enumerate() {
+            let what = format!("dihedral {n}");
+            apart(&what, &dihedral.ids, masses)?;
+            dihedral.check(&what)?;
+            let Dihedral { ids: [a, b, c, d], multiplicity, phase, .. } = *dihedral;
+            let ends = if a < d { [a, b, c, d] } else { [d, c, b, a] };
+            if !turned.insert((ends, multiplicity, phase.to_bits())) {
+                return Err(Error::Scene(format!(
+                    "{what} is the same term of particles {a}, {b}, {c} and {d} as another one: add up their stiffness"
+                )));
+            }
         }
         for (n, triangle) in self.triangles.iter().enumerate() {
             apart(&format!("triangle {n}"), triangle, masses)?;
@@ -80,6 +100,43 @@ impl Rod {
     }
 }
 
+impl Joint {
+    /// Checks its numbers; `what` names it.
+    ///
+    /// # Errors
+    /// [`Error::Scene`] where they are invalid.
+    pub fn check(&self, what: &str) -> Result<(), Error> {
+        not_negative(what, "stiffness", self.stiffness)?;
+        if (0.0..=PI).contains(&self.rest) {
+            return Ok(());
+        }
+        let angle = shown(180.0 - self.rest.to_degrees());
+        Err(Error::Scene(format!("{what} has an angle of {angle}° at rest, and it is from 0° to 180° (straight)")))
+    }
+}
+
+impl Dihedral {
+    /// Checks its numbers; `what` names it.
+    ///
+    /// # Errors
+    /// [`Error::Scene`] where they are invalid.
+    pub fn check(&self, what: &str) -> Result<(), Error> {
+        let Self { multiplicity, phase, .. } = self;
+        not_negative(what, "stiffness", self.stiffness.abs())?;
+        if !(1..=Self::MOST).contains(multiplicity) {
+            let most = Self::MOST;
+            let text = format!("{what} has the multiplicity {multiplicity}, and a turn has from 1 to {most} maxima");
+            return Err(Error::Scene(text));
+        }
+        if phase.abs() <= TAU {
+            return Ok(());
+        }
+        let phase = shown(phase.to_degrees());
+        let text = format!("{what} has the phase {phase}°, and phases are from −360° to 360°: leave out whole turns");
+        Err(Error::Scene(text))
+    }
+}
+
 /// Checks that particles are distinct, exist and have mass.
 fn apart(what: &str, ids: &[u32], masses: &[f64]) -> Result<(), Error> {
     for (place, id) in ids.iter().enumerate() {
@@ -105,6 +162,11 @@ fn twice(what: &str, [a, b]: [u32; 2], pairs: &mut BTreeSet<[u32; 2]>) -> Result
         return Ok(());
     }
     Err(Error::Scene(format!("{what} connects particles {a} and {b}, which another link connects already: merge them")))
+}
+
+/// An angle without the digits that a unit has rounded.
+fn shown(degrees: f64) -> f64 {
+    (degrees * 1e9).round() / 1e9
 }
 
 fn not_negative(what: &str, name: &str, x: f64) -> Result<(), Error> {

@@ -3,7 +3,7 @@
 
 use std::sync::Arc;
 
-use super::{Half, Joint, Link, Links, Rod, WORDS};
+use super::{Dihedral, Half, Joint, Link, Links, Rod, WORDS};
 
 /// The maximum number of links of a particle: one invocation loops over them, and some drivers end loops after 65 535 iterations.
 pub const MOST_LINKS: u32 = 60_000;
@@ -28,11 +28,16 @@ pub struct Network {
     pub kind: Arc<Vec<u32>>,
     /// The start of each particle's joints.
     pub joint_start: Arc<Vec<u32>>,
-    /// Five words for each corner: the three ids, the index of the particle among them, and as `f32` the stiffness.
+    /// Six words for each corner: the three ids, the index of the particle among them, and as `f32` the stiffness and the angle at rest.
     pub joint: Arc<Vec<u32>>,
+    /// The start of each particle's dihedrals.
+    pub dihedral_start: Arc<Vec<u32>>,
+    /// Nine words for each corner: the four ids, the index of the particle among them, the multiplicity, and as `f32` the stiffness,
+    /// and cosine and sine of the phase.
+    pub dihedral: Arc<Vec<u32>>,
     /// The start of each particle's triangles.
     pub triangle_start: Arc<Vec<u32>>,
-    /// Five words for each corner, as for joints; the last is zero.
+    /// Six words for each corner, as for joints; the last two are zero.
     pub triangle: Arc<Vec<u32>>,
     /// The rods. Their division into chains depends on which particles are fixed.
     pub rods: Arc<Vec<Rod>>,
@@ -51,12 +56,14 @@ impl Network {
         let ends: Vec<_> = ends.collect();
         let [partner_start, partner, kind] = alike(count, &ends);
         let (link_start, link) = rows(count, ends);
-        let corners = |ids: [u32; 3], stiffness: f64| {
-            [0u32, 1, 2].map(|place| (ids[place as usize], [ids[0], ids[1], ids[2], place, bits(stiffness)]))
+        let corners = |ids: [u32; 3], stiffness: f64, rest: f64| {
+            [0u32, 1, 2]
+                .map(|place| (ids[place as usize], [ids[0], ids[1], ids[2], place, bits(stiffness), bits(rest)]))
         };
-        let joints = links.joints.iter().flat_map(|Joint { ids, stiffness }| corners(*ids, *stiffness));
+        let joints = links.joints.iter().flat_map(|Joint { ids, stiffness, rest }| corners(*ids, *stiffness, *rest));
         let (joint_start, joint) = rows(count, joints.collect());
-        let triangles = links.triangles.iter().flat_map(|ids| corners(*ids, 0.0));
+        let (dihedral_start, dihedral) = rows(count, links.dihedrals.iter().flat_map(twisted).collect());
+        let triangles = links.triangles.iter().flat_map(|ids| corners(*ids, 0.0, 0.0));
         let (triangle_start, triangle) = rows(count, triangles.collect());
         let rods = Arc::new(links.rods.clone());
         Self {
@@ -68,6 +75,8 @@ impl Network {
             kind,
             joint_start,
             joint,
+            dihedral_start,
+            dihedral,
             triangle_start,
             triangle,
             rods,
@@ -108,6 +117,14 @@ impl Links {
 fn half(link: &Link, partner: usize) -> [u32; 4] {
     let rest = if link.rope { -link.rest } else { link.rest };
     [link.ends[partner], bits(rest), bits(link.stiffness), bits(link.damping)]
+}
+
+/// A dihedral as seen from each of its corners.
+fn twisted(of: &Dihedral) -> [(u32, [u32; 9]); 4] {
+    let [a, b, c, d] = of.ids;
+    let [cosine, sine] = [libm::cos(of.phase), libm::sin(of.phase)].map(bits);
+    [0u32, 1, 2, 3]
+        .map(|place| (of.ids[place as usize], [a, b, c, d, place, of.multiplicity, bits(of.stiffness), cosine, sine]))
 }
 
 /// The tables of springs by their kind, if there are few.

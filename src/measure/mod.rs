@@ -1,5 +1,6 @@
 //! Measures of a state, in f64: a register, a file for each. A run writes a table of each measure that it takes.
 
+mod blocks;
 mod region;
 mod series;
 
@@ -9,6 +10,7 @@ pub use diffusion::Diffusion;
 pub use energy::{Energies, Energy};
 pub use flock::{Flock, Flocks};
 pub use fluid::{Book, Ledger};
+pub use heat_capacity::{Ensemble, Estimate, HeatCapacity};
 pub use population::Counts;
 pub use pressure::Pressures;
 pub use series::{Cell, Moment, Needs, Row, Series};
@@ -91,9 +93,11 @@ register! {
     fluid
     population
     thermo
+    heat_capacity
     pressure
     tail
     rdf
+    structure_factor
     diffusion
     probe
 }

@@ -13,6 +13,17 @@ use crate::neighbors::Cells;
 use crate::settings::{Key, Kind, Value};
 use crate::state::State;
 
+/// The number of axes of a box that is periodic along all of them; `what` begins the error where it is not.
+pub(super) fn periodic_axes(bounds: &Bounds, what: &str) -> Result<usize, Error> {
+    let axes = if bounds.dimensions == 2 { 2 } else { 3 };
+    if (0..axes).all(|axis| bounds.sides[axis] == Side::Periodic) {
+        return Ok(axes);
+    }
+    Err(Error::Scene(format!(
+        "{what}, and this box is not periodic along all axes: set [box] boundary = \"periodic\", or leave it out"
+    )))
+}
+
 /// `rdf.csv`.
 pub const MEASURE: Measure = Measure {
     name: "rdf",
@@ -32,14 +43,7 @@ pub const MEASURE: Measure = Measure {
     usual: |_| Ok(None),
     begin: |setup, settings| {
         let bounds = setup.bounds;
-        let axes = if bounds.dimensions == 2 { 2 } else { 3 };
-        if (0..axes).any(|axis| bounds.sides[axis] != Side::Periodic) {
-            return Err(Error::Scene(
-                "the measure `rdf` compares with the mean density of a box, and this box is not periodic along all axes: set \
-                 [box] boundary = \"periodic\", or leave it out"
-                    .to_owned(),
-            ));
-        }
+        let axes = periodic_axes(&bounds, "the measure `rdf` compares with the mean density of a box")?;
         let (range, period) = (settings.number("range"), bounds.period());
         let half = 0.5 * (0..axes).map(|axis| period[axis]).fold(f64::INFINITY, f64::min);
         if range > half {

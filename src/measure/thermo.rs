@@ -8,18 +8,21 @@ use crate::error::Error;
 use crate::settings::{Key, Kind, Value};
 use crate::state::State;
 
+/// Whether the centre of mass takes part.
+pub(super) const DRIFT: Key = Key::new(
+    "drift",
+    Kind::Flag,
+    Value::Flag(false),
+    "whether the motion of the centre of mass counts as heat; where it does not, there are as many degrees of freedom less as dimensions",
+);
+
 /// `thermo.csv`.
 pub const MEASURE: Measure = Measure {
     name: "thermo",
     about: "temperature, and energies per particle, of all particles that are not fixed; rods, which take degrees of freedom, are not counted",
     keys: &[
         Key::new("boltzmann", Kind::Positive, Value::Number(1.0), "Boltzmann's constant k [mass length² / time² / temperature]"),
-        Key::new(
-            "drift",
-            Kind::Flag,
-            Value::Flag(false),
-            "whether the motion of the centre of mass counts as heat; where it does not, there are as many degrees of freedom less as dimensions",
-        ),
+        DRIFT,
     ],
     cells: &[
         ("count", "active particles that are not fixed"),

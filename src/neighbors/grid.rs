@@ -112,7 +112,7 @@ impl Grid {
         let periodic = problem.bounds.axes(Side::Periodic);
         let size = size(problem);
         let parts = DVec3::from_array(fine.map(f64::from));
-        let whole_cells = size / width * parts * problem.elastic.unwrap_or(1.0);
+        let whole_cells = size / width * parts * problem.elastic.map_or(1.0, |elastic| elastic.least);
         // A period is divided into whole cells; elsewhere the last cell may extend beyond the box.
         let wish = DVec3::select(periodic.cmpgt(DVec3::ZERO), whole_cells.floor(), whole_cells.ceil()).max(DVec3::ONE);
         let flat = problem.bounds.dimensions == 2;

@@ -188,8 +188,12 @@ pub(super) fn size(state: &State) -> usize {
 }
 
 /// The memory of links \[bytes\].
-pub(super) fn tied(Links { springs, rods, joints, triangles }: &Links) -> usize {
-    size_of_val(&**springs) + size_of_val(&**rods) + size_of_val(&**joints) + size_of_val(&**triangles)
+pub(super) fn tied(Links { springs, rods, joints, dihedrals, triangles }: &Links) -> usize {
+    size_of_val(&**springs)
+        + size_of_val(&**rods)
+        + size_of_val(&**joints)
+        + size_of_val(&**dihedrals)
+        + size_of_val(&**triangles)
 }
 
 #[cfg(test)]

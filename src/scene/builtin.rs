@@ -72,6 +72,7 @@ pub const SCENES: &[Builtin] = scenes![
     "brazil_nut",
     "sandcastle",
     "room",
+    "lanes",
 ];
 
 #[cfg(test)]

@@ -182,6 +182,7 @@ fn over(table: &Table<'_>, report: &mut Report) -> Option<Over> {
             "each" => Over::Each,
             "links" => Over::Links,
             "joints" => Over::Joints,
+            "dihedrals" => Over::Dihedrals,
             "triangles" => Over::Triangles,
             _ => Over::Pairs,
         });

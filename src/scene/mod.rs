@@ -19,6 +19,7 @@ mod builtin;
 mod checkpoint;
 mod color;
 mod column;
+mod copies;
 mod diagnostic;
 mod draft;
 mod drain;
@@ -289,7 +290,7 @@ fn read(sections: &[(&'static str, Table<'_>)], files: &Files, options: &Options
     for table in all("particles") {
         let start = ids(&particles);
         let room = options.most_particles.saturating_sub(start);
-        if let Some(block) = particles::read(table, room, (files, &motions, &said), &columns, report) {
+        if let Some(block) = particles::read(table, room, (files, &motions, &said, &bounds), &columns, report) {
             if let Err(why) = particles.append(&block.particles) {
                 report.push(Fault::at(table.place, why.to_string()));
             }

@@ -85,8 +85,14 @@ pub(super) const EMITTER: &[Own] = &[
     own("first", "behind all others", "the first id of its particles, where a file has them as pending particles"),
 ];
 pub(super) const LINKS: &[Own] = &[
-    own("file", "or pairs", "a CSV file with the columns a, b and any of rest, stiffness, damping, tie"),
-    own("pairs", "or file", "ids of the two: [[0, 1], [1, 2]]"),
+    own(
+        "file",
+        "or pairs, joints, dihedrals",
+        "a CSV file with the columns a, b and any of c, d, rest, stiffness, damping, tie, angle, multiplicity, phase",
+    ),
+    own("pairs", "or file, joints, dihedrals", "ids of the two: [[0, 1], [1, 2]]"),
+    own("joints", "or file, pairs, dihedrals", "ids of the three, the second in the middle: [[0, 1, 2], [1, 2, 3]]"),
+    own("dihedrals", "or file, pairs, joints", "ids of the four along the bonds: [[0, 1, 2, 3]]"),
 ];
 pub(super) const FORCE: &[Own] = &[
     own("kind", "or wgsl", "a force by its name, with its keys"),
@@ -94,7 +100,7 @@ pub(super) const FORCE: &[Own] = &[
     own(
         "over",
         "must be given",
-        "wgsl: each, pairs, within, near, list, nearest, tree, auto, links, joints or triangles",
+        "wgsl: each, pairs, within, near, list, nearest, tree, auto, links, joints, dihedrals or triangles",
     ),
     own("range", "must be given", "wgsl over within, near and list: the cut-off radius [length]"),
     own(

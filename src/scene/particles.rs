@@ -6,7 +6,7 @@ use glam::DVec3;
 
 use crate::error::Error;
 use crate::formats;
-use crate::kernel::{Column, Columns};
+use crate::kernel::{Bounds, Column, Columns};
 use crate::motion::{Held, Hold, Motion};
 use crate::render::group_color;
 use crate::settings::{Key, Kind, Settings, Value};
@@ -15,6 +15,7 @@ use crate::state::State;
 
 use super::color;
 use super::column;
+use super::copies::{self, COPIES};
 use super::files::Files;
 use super::fluid;
 use super::held;
@@ -43,6 +44,7 @@ const BODY: &[Key] = &[
     Key::new("velocity", Kind::Vector, Value::Vector(DVec3::ZERO), "its velocity [length / time]"),
     Key::new("mass", Kind::NotNegative, Value::Number(1.0), "its mass [mass]"),
     Key::new("size", Kind::NotNegative, Value::Number(0.0), "the radius that is drawn [length]"),
+    Key::new("species", Kind::Whole, Value::Number(0.0), "its species; left out: that of the entry"),
     Key::new("fixed", Kind::Flag, Value::Flag(false), "whether it is fixed"),
 ];
 
@@ -59,7 +61,7 @@ pub(super) struct Block {
 pub(super) fn read(
     table: &Table<'_>,
     room: u32,
-    (files, motions, said): (&Files, &[Motion], &[Entry]),
+    (files, motions, said, bounds): (&Files, &[Motion], &[Entry], &Bounds),
     known: &Columns,
     report: &mut Report,
 ) -> Option<Block> {
@@ -74,7 +76,11 @@ pub(super) fn read(
     let particles = match entry.key.as_str() {
         "file" => from_file(table, entry, (files, known), &mut out, report),
         "shape" => from_shape(table, entry, (room, files, said), columns, &mut others, &mut out, report),
-        _ => from_bodies(table, entry, columns, &mut out, report),
+        _ => from_bodies(table, entry, (columns, species), &mut out, report),
+    };
+    let particles = match entry.key.as_str() {
+        "shape" => particles,
+        _ => copies::read(table, particles, (room, bounds), &mut out, report),
     };
     let particles = particles.filter(|_| report.len() == faults)?;
     if let Err(fault) = sound(&particles, room, &entry.node.place) {
@@ -84,17 +90,18 @@ pub(super) fn read(
     if let Some(rgb) = color {
         out.text("color", &color::shown(rgb));
     }
-    // A file may have species of its own.
-    let species = species.or((entry.key != "file").then_some(0));
+    // A file may have species of its own, and listed particles have them.
+    let species = species.or((entry.key == "shape").then_some(0));
     if let Some(species) = species {
         out.line("species", &species.to_string());
     }
-    let mut particles = species.into_iter().fold(particles, State::of_species);
+    let mut particles = species.into_iter().filter(|_| entry.key != "bodies").fold(particles, State::of_species);
     let shape = table.get("shape").and_then(|entry| match &entry.node.data {
         Data::Text(name) => SHAPES.iter().find(|shape| shape.name == name),
         _ => None,
     });
-    column::give(table, (columns, shape.map_or(OFFSETS, |shape| shape.keys)), &mut particles, &mut out, report);
+    let taken = shape.map_or([OFFSETS, COPIES].concat(), |shape| shape.keys.to_vec());
+    column::give(table, (columns, &taken), &mut particles, &mut out, report);
     held::read(table, motions, &mut particles, &mut out, report);
     // Parts without colours of their own are one.
     if others.iter().all(|(_, own)| own.is_none()) {
@@ -109,7 +116,8 @@ pub(super) fn read(
 }
 
 fn beside<'a>(what: &'static str, columns: &[&'a Column]) -> Vec<&'a str> {
-    [what].into_iter().chain(BESIDE).chain(columns.iter().map(|column| column.name.as_ref())).collect()
+    let copies = COPIES.iter().filter(|_| what != "shape").map(|key| key.name);
+    [what].into_iter().chain(BESIDE).chain(copies).chain(columns.iter().map(|column| column.name.as_ref())).collect()
 }
 
 fn species(entry: &Entry, report: &mut Report) -> Option<u32> {
@@ -241,7 +249,7 @@ pub(super) fn amount(table: &Table<'_>, said: &[Entry], columns: &[&Column], rep
 fn from_bodies(
     table: &Table<'_>,
     entry: &Entry,
-    columns: &[&Column],
+    (columns, usual): (&[&Column], Option<u32>),
     out: &mut Writer,
     report: &mut Report,
 ) -> Option<State> {
@@ -267,13 +275,18 @@ fn from_bodies(
             particles.held.push(Held { id: u32::try_from(particles.len()).unwrap_or(u32::MAX), by: Hold::Fixed });
         }
         particles.push(position, velocity, mass, size);
+        let own_species = one.get("species").and_then(|entry| self::species(entry, report));
+        let species = own_species.or(usual).unwrap_or(0);
+        if let Some(last) = particles.species_mut().last_mut() {
+            *last = species;
+        }
         let fixed = if body.flag("fixed") { ", fixed = true" } else { "" };
         let [position, velocity] = [position, velocity].map(resolved::vector);
         let [mass, size] = [mass, size].map(resolved::number);
         // Writing to a String cannot fail.
         let _ = writeln!(
             text,
-            "  {{ position = {position}, velocity = {velocity}, mass = {mass}, size = {size}{fixed}{more} }},"
+            "  {{ position = {position}, velocity = {velocity}, mass = {mass}, size = {size}, species = {species}{fixed}{more} }},"
         );
     }
     own.give(&mut particles);

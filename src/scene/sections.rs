@@ -9,7 +9,9 @@ use crate::settings::Key;
 use crate::shapes::SHAPES;
 
 use super::own::{self, Own};
-use super::{bounds, checkpoint, column, drain, emitter, links, motion, output, particles, plan, simulation, solver};
+use super::{
+    bounds, checkpoint, column, copies, drain, emitter, links, motion, output, particles, plan, simulation, solver,
+};
 
 /// A section.
 pub struct Section {
@@ -58,7 +60,7 @@ pub const SECTIONS: &[Section] = &[
     Section {
         about: "particles of a shape, of a file, or written out",
         own: own::PARTICLES,
-        kinds: || SHAPES.iter().map(|s| s.keys).chain([particles::OFFSETS]).collect(),
+        kinds: || SHAPES.iter().map(|s| s.keys).chain([particles::OFFSETS, copies::COPIES]).collect(),
         ..Section::new("particles", true, particles::EVERY)
     },
     Section {
@@ -68,7 +70,7 @@ pub const SECTIONS: &[Section] = &[
     },
     Section { about: "a region where particles are removed", ..Section::new("drain", true, drain::DRAIN_KEYS) },
     Section {
-        about: "springs, rods and ropes between particles: from a file, or as pairs of ids",
+        about: "springs, rods, ropes, joints and dihedrals of particles: from a file, or as lists of ids",
         own: own::LINKS,
         ..Section::new("links", true, links::LINKS_KEYS)
     },

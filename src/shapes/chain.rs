@@ -102,7 +102,7 @@ fn build(settings: &Settings) -> Result<State, Error> {
             }
         }
         if bending > 0.0 && i > 0 {
-            particles.links.joints.push(Joint { ids: [i - 1, i, i + 1], stiffness: bending });
+            particles.links.joints.push(Joint { ids: [i - 1, i, i + 1], stiffness: bending, rest: 0.0 });
         }
     }
     match settings.text("pins") {

@@ -94,7 +94,7 @@ fn build(settings: &Settings) -> Result<State, Error> {
                 particles.links.rods.push(Rod { ends: [id - 1, id], length: ds });
                 let stiffness = bending / ds * if point == 2 { 2.0 } else { 1.0 };
                 if stiffness > 0.0 {
-                    particles.links.joints.push(Joint { ids: [id - 2, id - 1, id], stiffness });
+                    particles.links.joints.push(Joint { ids: [id - 2, id - 1, id], stiffness, rest: 0.0 });
                 }
             }
         }

@@ -7,6 +7,7 @@ pub mod chain;
 mod chains;
 pub mod cloth;
 pub mod clusters;
+pub mod copies;
 pub mod crowd;
 pub mod crystal;
 pub mod disk;

@@ -2,15 +2,21 @@
 
 use std::borrow::Cow;
 
+use glam::DVec3;
+
 use super::Setup;
 use crate::component::barostat::{CORNER, boxed};
 use crate::error::Error;
 use crate::forces::{Component, Over};
-use crate::kernel::{ACCELERATION, Array, Bounds, Side};
-use crate::state::{KEPT_PART, State};
+use crate::kernel::{ACCELERATION, Array, Bounds, Elastic, Side};
+use crate::state::{KEPT_MOST, KEPT_PART, KEPT_SIDES, State};
 
 /// The part of the sides for which cells are wide enough, if no smaller box is known.
 pub(super) const USUAL: f64 = 0.95;
+/// The multiple of the sides for which there are waves enough, if no larger box is known.
+pub(super) const LARGER: f64 = 1.1;
+/// How much the sides of a box may differ in the part by which they have changed: they are rounded to single precision.
+const ONE_PART: f64 = 1e-5;
 /// The part of its relaxation time after which a barostat changes the box at the latest.
 const SPAN: f64 = 0.2;
 
@@ -27,11 +33,23 @@ impl Setup {
     fn barostat(&self) -> Option<&dyn Component> {
         self.forces.iter().map(AsRef::as_ref).find(|force| force.properties().barostat.is_some())
     }
-    /// Where the box changes, the part of its sides for which cells are to be wide enough.
-    pub(super) fn elastic(&self) -> Option<f64> {
+    /// How far the box may change, if something changes it.
+    pub(super) fn elastic(&self) -> Option<Elastic> {
         self.barostat()?;
-        let kept = self.state.kept.get(KEPT_PART).and_then(|list| list.first().copied());
-        Some(kept.filter(|part| (0.0..=USUAL).contains(part)).unwrap_or(USUAL))
+        let kept = |name| self.state.kept.get(name).unwrap_or_default();
+        let one = |name| kept(name).first().copied();
+        let sides = Some(kept(KEPT_SIDES)).filter(|sides| sides.len() == 3).map(DVec3::from_slice);
+        let period = self.bounds.period();
+        // All sides change by one part: others are those of another box.
+        let is_one = |sides: &DVec3| {
+            let parts = DVec3::select(period.cmpgt(DVec3::ZERO), *sides / period, DVec3::splat(sides.x / period.x));
+            parts.is_finite() && parts.x > 0.0 && parts.max_element() - parts.min_element() < ONE_PART * parts.x
+        };
+        Some(Elastic {
+            least: one(KEPT_PART).filter(|part| (0.0..=USUAL).contains(part)).unwrap_or(USUAL),
+            most: one(KEPT_MOST).filter(|most| most.is_finite() && *most >= LARGER).unwrap_or(LARGER),
+            start: sides.filter(is_one).unwrap_or(period),
+        })
     }
     /// The same in the box of its state, and with the box in the state, where a barostat changes it; `None` where that is so already, or
     /// nothing changes it. A state that has a box keeps all digits of it; that of a scene is rounded as all kernels know it.
@@ -80,6 +98,13 @@ impl Setup {
             }
             if let Some(why) = unserved_laws(force.as_ref()) {
                 return refuse(why);
+            }
+            let listed = force.laws().iter().all(|law| matches!(law.over, Over::List { .. } | Over::Auto { .. }));
+            if properties.has_waves && !listed {
+                return refuse(format!(
+                    "changes the box, and `{}` needs more waves in a larger one: choose over = \"list\", with which steps can be repeated",
+                    force.name()
+                ));
             }
         }
         let (range, period) = (self.range(), self.bounds.period());

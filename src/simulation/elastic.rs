@@ -1,7 +1,7 @@
-//! A box that changes: new cells where the old ones have become too narrow.
+//! A box that changes: new cells where the old ones have become too narrow, and more waves where it has grown.
 
 use super::Simulation;
-use super::barostat::USUAL;
+use super::barostat::{LARGER, USUAL};
 use super::grow::Room;
 use crate::component::barostat::{CORNER, WATCH, boxed};
 use crate::error::Error;
@@ -10,16 +10,31 @@ use crate::neighbors::List;
 
 /// The largest change of the volume at once.
 const LARGEST: f64 = 0.3;
-/// The part of the shortest side at which new cells are made in advance, so that no steps need to be repeated.
+/// The part of the shortest side, and of the longest, at which plans are written in advance, so that no steps need to be repeated.
 const AMPLE: f64 = 1.02;
 
-/// How the cells fit the box, and whether a barostat can go on.
+/// How far the box may change from what it is, as parts of its sides.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Change {
+    /// That for which cells are to be wide enough.
+    pub least: f64,
+    /// That for which there are to be waves enough.
+    pub most: f64,
+}
+
+impl Default for Change {
+    fn default() -> Self {
+        Self { least: USUAL, most: LARGER }
+    }
+}
+
+/// How the cells and the waves fit the box, and whether a barostat can go on.
 pub(super) enum Fit {
     Well,
-    /// They will soon be too narrow.
+    /// Cells will soon be too narrow, or waves too few.
     Soon,
-    /// They were too narrow: the part of the sides for which they are to be wide enough.
-    Not(f64),
+    /// They were: how far the box is to be able to change.
+    Not(Change),
     /// They fit, and there is nothing that would heal this.
     Refused(String),
 }
@@ -28,6 +43,8 @@ pub(super) enum Fit {
 struct Watch {
     /// The shortest side along x so far \[length\]; 0 before the first step.
     shortest: f64,
+    /// The longest one.
+    longest: f64,
     /// The largest change of the logarithm of the volume at once.
     largest: f64,
     /// How many particles had forces that did not add up.
@@ -49,7 +66,7 @@ impl<B: Backend> Simulation<B> {
         let corner = glam::Vec4::view(&corner).and_then(|all| all.first()).map(|corner| corner.truncate());
         Ok(corner.map_or(given, |corner| boxed(&given, corner)))
     }
-    /// How the cells fit the box: what a repetition heals comes before what nothing heals.
+    /// How the cells and the waves fit the box: what a repetition heals comes before what nothing heals.
     ///
     /// # Errors
     /// Errors of reading; and numbers that are not finite, which are the cause of whatever else is wrong: as of [`Simulation::snapshot`].
@@ -63,8 +80,11 @@ impl<B: Backend> Simulation<B> {
         let least = cells.transpose()?.unwrap_or_default();
         let narrow = axes().map(|axis| least[axis] / period[axis]).fold(0.0, f64::max);
         let begun = watch.shortest != 0.0;
-        if begun && part < narrow && narrow > smallest {
-            return Ok(Fit::Not((part / AMPLE).max(smallest).min(USUAL)));
+        let is_narrow = |part: f64| begun && part < narrow && narrow > smallest;
+        let (times, most) = (watch.longest / period.x, self.most_waves());
+        if is_narrow(part) || times > most {
+            let least = if is_narrow(part) { (part / AMPLE).max(smallest).min(USUAL) } else { USUAL };
+            return Ok(Fit::Not(Change { least, most: (AMPLE * times).max(LARGER) }));
         }
         // Before what follows from it, as numbers that are not finite.
         if let Some(why) = too_fast(&watch).filter(|_| watch.largest.is_finite()) {
@@ -75,7 +95,12 @@ impl<B: Backend> Simulation<B> {
             self.sound(&alarm)?;
             return Ok(Fit::Refused(why));
         }
-        Ok(if begun && part < AMPLE * narrow && narrow > smallest { Fit::Soon } else { Fit::Well })
+        Ok(if is_narrow(part / AMPLE) || AMPLE * times > most { Fit::Soon } else { Fit::Well })
+    }
+    /// The multiple of the sides for which there are waves enough.
+    fn most_waves(&self) -> f64 {
+        let has_waves = self.setup.forces.iter().any(|force| force.properties().has_waves);
+        self.problem.elastic.filter(|_| has_waves).map_or(f64::INFINITY, |elastic| elastic.most)
     }
     /// Why a barostat cannot go on; `sides` are the part of the sides that is left, and the smallest for which forces end within half of them.
     fn refusal(&self, watch: &Watch, sides: Option<[f64; 2]>) -> Option<String> {
@@ -108,13 +133,13 @@ impl<B: Backend> Simulation<B> {
         }
         let watch = self.backend.read(WATCH.name, &Array::Vec4(Vec::new()), 1).await?;
         let Some([watch]) = glam::Vec4::view(&watch).map(Vec::as_slice) else { return Ok(None) };
-        Ok(Some(Watch { shortest: watch.x, largest: watch.y, unpaired: watch.z }))
+        Ok(Some(Watch { shortest: watch.x, longest: watch.w, largest: watch.y, unpaired: watch.z }))
     }
-    /// Restores the copy, makes new cells, and repeats the steps since, with the bits of a run that had them from the start.
-    pub(super) async fn again_in_new_cells(&mut self, part: f64) -> Result<(), Error> {
+    /// Restores the copy, makes new cells and waves, and repeats the steps since, with the bits of a run that had them from the start.
+    pub(super) async fn again_in_new_box(&mut self, change: Change) -> Result<(), Error> {
         let lost = || {
             Error::Scene(
-                "a barostat has made the box so much smaller that its cells are too narrow, in steps that cannot be repeated: check the \
+                "a barostat has changed the box so much that its cells are too narrow, or waves too few, in steps that cannot be repeated: check the \
                  simulation more often"
                     .to_owned(),
             )
@@ -125,7 +150,7 @@ impl<B: Backend> Simulation<B> {
         (self.steps, self.begun) = (from.steps, from.begun);
         // The copied state may itself have come from cells that were too narrow, or have lacked neighbours.
         let whole = self.list_sufficed().await? && !matches!(self.fit().await?, Fit::Not(_));
-        let grown = if whole { self.grow(Room::Cells(part)).await } else { Err(lost()) };
+        let grown = if whole { self.grow(Room::Box(change)).await } else { Err(lost()) };
         if let Err(why) = grown {
             // Each later check finds it again.
             self.backend.write(WATCH.name, &watch)?;

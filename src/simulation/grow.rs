@@ -1,10 +1,11 @@
 //! Room for more rows, or for more neighbours of each particle: buffers are recreated, the plan is rewritten for them, and all restart data
 //! of a step is copied row by row.
 
+use super::elastic::Change;
 use super::{Simulation, Start};
 use crate::error::Error;
 use crate::kernel::{Array, Backend, STOP};
-use crate::state::{KEPT_PART, KEPT_ROOM, KEPT_ROWS, KEPT_SKIN};
+use crate::state::{KEPT_MOST, KEPT_PART, KEPT_ROOM, KEPT_ROWS, KEPT_SKIN};
 
 /// The capacity to provide.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -15,8 +16,8 @@ pub(super) enum Room {
     Neighbors(u32),
     /// As many neighbours as there are within the range and this skin \[length\].
     Skin(f64),
-    /// Cells of the present box that are wide enough in one whose sides are this part as long.
-    Cells(f64),
+    /// Cells of the present box that are wide enough for sides of a part of their length, and waves enough for a multiple of it.
+    Box(Change),
 }
 
 impl<B: Backend> Simulation<B> {
@@ -31,16 +32,14 @@ impl<B: Backend> Simulation<B> {
         self.complete(&mut state).await?;
         let rows = match room {
             Room::Rows(rows) => Some(rows),
-            Room::Neighbors(_) | Room::Skin(_) | Room::Cells(_) => {
-                Some(self.capacity()).filter(|_| self.rows.are_open())
-            }
+            Room::Neighbors(_) | Room::Skin(_) | Room::Box(_) => Some(self.capacity()).filter(|_| self.rows.are_open()),
         };
         if rows.is_some() {
             state.kept.put(KEPT_ROWS, vec![f64::from(self.first_rows)]);
             (state.capacity, state.next) = (rows, self.rows.next());
         }
         let neighbors = match room {
-            Room::Rows(_) | Room::Cells(_) => self.list.map(|list| list.capacity),
+            Room::Rows(_) | Room::Box(_) => self.list.map(|list| list.capacity),
             Room::Neighbors(neighbors) => Some(neighbors),
             Room::Skin(_) => None,
         };
@@ -50,8 +49,9 @@ impl<B: Backend> Simulation<B> {
         };
         state.kept.put(KEPT_SKIN, skin.into_iter().collect());
         state.kept.put(KEPT_ROOM, neighbors.map(f64::from).into_iter().collect());
-        if let Room::Cells(part) = room {
-            state.kept.put(KEPT_PART, vec![part]);
+        if let Room::Box(change) = room {
+            state.kept.put(KEPT_PART, vec![change.least]);
+            state.kept.put(KEPT_MOST, vec![change.most]);
         }
         let setup = self.setup.with_state(state);
         let mut grown = Self::going(self.backend.alike(rows.unwrap_or(self.capacity()))?, &setup, Start::Grown)?;

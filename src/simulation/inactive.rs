@@ -26,7 +26,7 @@ pub fn serves(particles: &State, forces: &[Box<dyn Component>], integrator: &dyn
     let mut waits = vec![false; particles.len()];
     particles.births.iter().for_each(|birth| waits[birth.id as usize] = true);
     let springs = links.springs.iter().map(|link| link.ends).chain(links.rods.iter().map(|rod| rod.ends)).flatten();
-    let corners = links.joints.iter().map(|joint| joint.ids).chain(links.triangles.iter().copied()).flatten();
+    let corners = links.corners().flatten().copied();
     let idle = |id: &u32| waits.get(*id as usize).is_some_and(|waits| *waits) || !particles.is_active(*id as usize);
     let mut tied = springs.chain(corners);
     if !particles.drains.is_empty() && tied.next().is_some() {
@@ -55,6 +55,7 @@ pub(super) fn evaluate_active(forces: &[Box<dyn Component>]) -> Result<(), Error
                 | Over::Auto { .. }
                 | Over::Links
                 | Over::Joints
+                | Over::Dihedrals
                 | Over::Triangles => {}
                 _ if force.properties().ignores_massless => {}
                 _ => {

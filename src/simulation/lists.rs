@@ -4,8 +4,7 @@ use std::collections::BTreeSet;
 
 use glam::DVec3;
 
-use super::barostat::USUAL;
-use super::elastic::Fit;
+use super::elastic::{Change, Fit};
 use super::grow::Room;
 use super::{Plans, Setup, Simulation, pair_history};
 use crate::error::Error;
@@ -185,8 +184,8 @@ impl<B: Backend> Simulation<B> {
                 continue;
             }
             let fit = Box::pin(self.fit()).await?;
-            if let Fit::Not(part) = fit {
-                Box::pin(self.again_in_new_cells(part)).await?;
+            if let Fit::Not(change) = fit {
+                Box::pin(self.again_in_new_box(change)).await?;
                 changed = true;
                 continue;
             }
@@ -196,7 +195,7 @@ impl<B: Backend> Simulation<B> {
             let ample = f64::from(seen.longest) <= AMPLE * f64::from(shape.capacity);
             let room = match fit {
                 Fit::Refused(why) => return Err(Error::Scene(why)),
-                Fit::Soon => Some(Room::Cells(USUAL)),
+                Fit::Soon => Some(Room::Box(Change::default())),
                 _ => more.filter(|_| !ample).map(Room::Neighbors),
             };
             let room = room.or_else(|| self.better_skin(shape, seen.builds).map(Room::Skin));

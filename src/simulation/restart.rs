@@ -10,18 +10,21 @@ use glam::{DVec3, DVec4};
 
 use super::{Plans, Setup, Simulation, pair_history};
 use crate::boundary;
+use crate::component::pressure;
 use crate::error::Error;
+use crate::ewald;
 use crate::integrators::{SOLVE_REPORT, kept_rates};
 use crate::kernel::{
-    ALARM, Array, Backend, Column, Columns, HOME, ID, LARGEST_CRITERION, LIFE, LOW_WORDS, Plan, QUIET, Role,
-    STEP_CLOCK, STEP_CLOCK_WORDS, STEP_CRITERIA, TICKS, World, extent, split,
+    ALARM, Array, Backend, Column, Columns, HOME, ID, LARGEST_CRITERION, LIFE, LOW_WORDS, Pass, Plan, Problem, QUIET,
+    Role, STEP_CLOCK, STEP_CLOCK_WORDS, STEP_CRITERIA, TICKS, World, extent, split,
 };
 use crate::life::Life;
 use crate::links::Links;
 use crate::motion;
 use crate::sph::{DFSPH_ERRORS, DFSPH_REPORT};
 use crate::state::{
-    KEPT, KEPT_BROKEN, KEPT_EXTENT, KEPT_HOME, KEPT_NEIGHBORS, KEPT_PAIR_WORDS, KEPT_PAIRS, KEPT_ROWS, KEPT_STEP, State,
+    KEPT, KEPT_BROKEN, KEPT_EXTENT, KEPT_HOME, KEPT_NEIGHBORS, KEPT_PAIR_WORDS, KEPT_PAIRS, KEPT_ROWS, KEPT_SIDES,
+    KEPT_STEP, State,
 };
 use crate::visit;
 
@@ -135,11 +138,19 @@ impl Print {
 }
 
 /// A hash that two steps share only if they perform the same operations: names are ignored, and so is the neighbour list, of which capacity,
-/// cells and skin depend on when it was checked: pairs in range are the same by any.
-pub(super) fn print(step: &Plan) -> u64 {
+/// cells and skin depend on when it was checked: pairs in range are the same by any. Nor does it matter how many waves there are in a box that
+/// changes: what the sums are is in the law between two.
+pub(super) fn print(step: &Plan, problem: &Problem) -> u64 {
     let mut print = Print::new();
+    let (elastic, bounds) = (problem.elastic.is_some(), &problem.bounds);
+    // The highest corner of a box that changes is a column.
+    let corners = [bounds.low, if elastic { DVec3::ZERO } else { bounds.high }];
+    corners.iter().flat_map(DVec3::to_array).for_each(|x| print.add(&x.to_bits().to_le_bytes()));
+    bounds.sides.iter().for_each(|side| print.add(&[*side as u8]));
+    let is_sum = |pass: &Pass| elastic && pass.constants.iter().any(|(name, _)| *name == ewald::NUMBER);
+    let is_of_box = |name: &str| elastic && (name.starts_with(ewald::CHARGE_WAVE) || name == pressure::ALL);
     for kernel in step.steps().filter(|kernel| !visit::is_list(kernel)) {
-        for pass in &kernel.passes {
+        for pass in kernel.passes.iter().filter(|pass| !is_sum(pass)) {
             print.add(pass.shader.text().as_bytes());
             pass.constants.iter().for_each(|(name, value)| {
                 print.add(name.as_bytes());
@@ -149,7 +160,7 @@ pub(super) fn print(step: &Plan) -> u64 {
             pass.fields.iter().for_each(|(_, field)| print.add(field.as_bytes()));
         }
         // Springs break: a state holds the remaining ones.
-        for (_, words) in kernel.tables.iter().filter(|(name, _)| name != visit::LINK) {
+        for (_, words) in kernel.tables.iter().filter(|(name, _)| name != visit::LINK && !is_of_box(name)) {
             words.iter().for_each(|word| print.add(&word.to_le_bytes()));
         }
     }
@@ -339,6 +350,9 @@ impl<B: Backend> Simulation<B> {
         state.kept.put(KEPT_EXTENT, low.to_array().into_iter().chain(high.to_array()).collect());
         if self.rows.are_open() {
             state.kept.put(KEPT_ROWS, vec![f64::from(self.first_rows)]);
+        }
+        if let Some(elastic) = self.problem.elastic {
+            state.kept.put(KEPT_SIDES, elastic.start.to_array().to_vec());
         }
         let neighbors = self.problem.neighbors.iter().flat_map(|one| [one.range, one.mean]);
         state.kept.put(KEPT_NEIGHBORS, neighbors.collect());

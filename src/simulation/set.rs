@@ -26,8 +26,8 @@ impl<B: Backend> Simulation<B> {
     /// keep what they were encoded with.
     ///
     /// Some settings are compiled into kernels, or decide the size of buffers, and are refused: the medium of a fluid (`density`,
-    /// `spacing`, `support`, `gamma`, `sound_speed`), the `range` of a search, `theta` of a tree, the `accuracy` of Ewald sums, the `strain` of a strain limit, and
-    /// those that add a term where they were 0, such as a fluid's `viscosity`.
+    /// `spacing`, `support`, `gamma`, `sound_speed`), the `range` of a search, `theta` of a tree, the `accuracy` of Ewald sums, the `strain` of a strain limit, the
+    /// `truncation` of a pair potential, and those that add a term where they were 0, such as a fluid's `viscosity`.
     ///
     /// # Errors
     /// [`Error::Setting`] and [`Error::Scene`] when there is no such force or setting, with the nearest name; when the value is of
@@ -138,8 +138,8 @@ impl<B: Backend> Simulation<B> {
         self.start = self.backend.compile(&plans.start)?;
         self.step = self.backend.compile_often(&plans.step)?;
         self.measure = (self.backend.compile(&plans.measure.0)?, self.backend.compile(&plans.measure.1)?);
-        self.begun &= restart::print(&plans.start) == restart::print(&self.plans.start);
-        self.print = restart::print(&plans.step);
+        self.begun &= restart::print(&plans.start, &problem) == restart::print(&self.plans.start, &problem);
+        self.print = restart::print(&plans.step, &problem);
         self.marks = alarm::marks(&plans);
         self.plan = plans.step.to_string();
         (self.setup, self.problem, self.plans, self.fields) = (setup, Box::new(problem), Box::new(plans), fields);

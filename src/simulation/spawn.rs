@@ -114,12 +114,7 @@ impl<B: Backend> Simulation<B> {
     /// Refuses particles that cannot be added.
     fn welcome(&self, new: &State) -> Result<(), Error> {
         let refuse = |text: String| Err(Error::Scene(text));
-        let links = &new.links;
-        let tied = !(links.springs.is_empty()
-            && links.rods.is_empty()
-            && links.joints.is_empty()
-            && links.triangles.is_empty());
-        if tied || !new.held.is_empty() || !new.motions.is_empty() {
+        if !new.links.is_empty() || !new.held.is_empty() || !new.motions.is_empty() {
             return refuse(
                 "particles that are spawned cannot be linked, fixed or kinematic: spawn free ones".to_owned(),
             );

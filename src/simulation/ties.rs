@@ -51,8 +51,7 @@ impl Ties {
     pub fn bound(&self) -> BTreeSet<u32> {
         let springs = self.links.springs.iter().flat_map(|link| link.ends);
         let rods = self.links.rods.iter().flat_map(|rod| rod.ends);
-        let corners =
-            self.links.joints.iter().map(|joint| joint.ids).chain(self.links.triangles.iter().copied()).flatten();
+        let corners = self.links.corners().flatten().copied();
         springs.chain(rods).chain(corners).chain(self.held.iter().map(|held| held.id)).collect()
     }
     /// The rows of particles that move at constant velocity after they are spawned.

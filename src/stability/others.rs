@@ -1,28 +1,48 @@
-//! Other limits of the step besides springs: joints, and laws of single particles with a Jacobian.
+//! Other limits of the step besides springs: joints, dihedrals, and laws of single particles with a Jacobian.
 
 use glam::DVec3;
 
 use crate::kernel::{Array, Host, POSITION, SPECIES, VELOCITY, World};
+use crate::links::{Dihedral, Joint};
 use crate::simulation::Setup;
 use crate::visit::{Jacobian, View};
 
-/// The largest ω² of the joints by Gershgorin's theorem, with their lengths at the start: each is k g gᵀ, with g the change of
-/// its angle by the places of the three, across the way 1 / l₁, 1 / l₁ + 1 / l₂ and 1 / l₂.
-pub fn joints(setup: &Setup, masses: &[f64]) -> f64 {
+/// The largest ω² of joints and dihedrals by Gershgorin's theorem, with their lengths at the start: each is k g gᵀ, with g the
+/// change of its angle by the places of its particles; how g turns is left out. That of a joint is, across the way, 1 / l₁, 1 / l₁ + 1 / l₂ and 1 / l₂; that of a
+/// dihedral one over the distance of its ends from the axis, and for those between as their levers say; its k is n² times its stiffness.
+/// So often each kind is evaluated.
+pub fn corners(setup: &Setup, masses: &[f64], bends: f64, twists: f64) -> f64 {
     let at = |id: u32| setup.state.position().get(id as usize).copied().unwrap_or_default();
+    let way = |from: u32, to: u32| setup.bounds.shortest(at(to) - at(from));
+    let light = |id: u32| masses.get(id as usize).map_or(0.0, |mass| 1.0 / mass.sqrt());
     let mut rows = vec![0.0; masses.len()];
-    for joint in &setup.state.links.joints {
-        let [a, b, c] = joint.ids;
-        let inverse = |from: u32, to: u32| 1.0 / setup.bounds.shortest(at(to) - at(from)).length();
-        let (before, after) = (inverse(a, b), inverse(b, c));
-        let light = |id: u32| masses.get(id as usize).map_or(0.0, |mass| 1.0 / mass.sqrt());
-        let parts = [(a, before * light(a)), (b, (before + after) * light(b)), (c, after * light(c))];
+    let mut add = |stiffness: f64, changes: &[(u32, f64)]| {
+        let parts: Vec<_> = changes.iter().map(|(id, change)| (*id, change * light(*id))).collect();
         let all: f64 = parts.iter().map(|(_, part)| part).sum();
-        for (id, part) in parts.iter().filter(|(_, part)| *part > 0.0) {
-            if let Some(row) = rows.get_mut(*id as usize) {
-                *row += joint.stiffness * part * all;
+        for (id, part) in parts.into_iter().filter(|(_, part)| *part > 0.0) {
+            if let Some(row) = rows.get_mut(id as usize) {
+                *row += stiffness * part * all;
             }
         }
+    };
+    let links = &setup.state.links;
+    for Joint { ids: [a, b, c], stiffness, .. } in &links.joints {
+        let (before, after) = (1.0 / way(*a, *b).length(), 1.0 / way(*b, *c).length());
+        add(bends * stiffness, &[(*a, before), (*b, before + after), (*c, after)]);
+    }
+    for Dihedral { ids: [a, b, c, d], stiffness, multiplicity, .. } in &links.dihedrals {
+        let axis = way(*b, *c);
+        let [near, far] = [way(*a, *b), way(*c, *d)].map(|bond| axis.length() / bond.cross(axis).length());
+        // By the levers of both ends along the axis.
+        let [before, after] = [way(*a, *b), way(*c, *d)].map(|bond| bond.dot(axis) / axis.length_squared());
+        // Three in a line are in no plane, and exert nothing.
+        if !(near.is_finite() && far.is_finite()) {
+            continue;
+        }
+        let second = near * (1.0 + before).abs() + far * after.abs();
+        let third = far * (1.0 + after).abs() + near * before.abs();
+        let n = f64::from(*multiplicity);
+        add(twists * stiffness.abs() * n * n, &[(*a, near), (*b, second), (*c, third), (*d, far)]);
     }
     rows.into_iter().filter(|row| row.is_finite()).fold(0.0, f64::max)
 }

@@ -15,13 +15,13 @@ pub type Build<'a> = &'a (dyn Fn() -> Box<dyn Integrator> + Sync);
 /// A part of the largest step: at the limit itself a symplectic method keeps energies within bounds that are wide.
 const MARGIN: f64 = 0.9;
 
-/// The stability of springs and joints under the steps of a setup.
+/// The stability of springs, joints and dihedrals under the steps of a setup.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Verdict {
     /// An upper bound of the network's stiffness, and its location.
     pub bound: Bound,
-    /// The largest ω² of the joints \[1 / time²\].
-    pub joints: f64,
+    /// The largest ω² of joints and dihedrals \[1 / time²\].
+    pub bending: f64,
     /// The largest dt that is safe by all of this, and by what forces of each particle add (drag, harmonic attractors) \[time\]; infinite where any is stable, 0 where none is.
     pub safe: f64,
     /// The dt from which on modes that the network has at the start grow tenfold in the run; above `safe`, but for
@@ -32,16 +32,17 @@ pub struct Verdict {
 }
 
 impl Verdict {
-    /// For a setup that runs for `steps` steps; `None` where no spring or joint acts.
+    /// For a setup that runs for `steps` steps; `None` where no spring, joint or dihedral acts.
     ///
     /// # Errors
     /// Errors of a simulation of one particle by the references.
     pub async fn of(setup: &Setup, build: Build<'_>, steps: u64) -> Result<Option<Self>, Error> {
         // Two forces of a kind act twice. What a user's law does is not known.
-        let laws = setup.forces.iter().flat_map(|force| force.laws());
-        let bends = laws.filter(|law| law.over == Over::Joints && !law.wgsl.law).count() as f64;
-        let springs = &*acting(setup);
-        let bending = bends > 0.0 && !setup.state.links.joints.is_empty();
+        let laws: Vec<_> = setup.forces.iter().flat_map(|force| force.laws()).filter(|law| !law.wgsl.law).collect();
+        let acting_over = |over| laws.iter().filter(|law| law.over == over).count() as f64;
+        let (bends, twists) = (acting_over(Over::Joints), acting_over(Over::Dihedrals));
+        let (springs, links) = (&*acting(setup), &setup.state.links);
+        let bending = bends > 0.0 && !links.joints.is_empty() || twists > 0.0 && !links.dihedrals.is_empty();
         if springs.is_empty() && !bending {
             return Ok(None);
         }
@@ -53,22 +54,22 @@ impl Verdict {
         }
         let bound = Bound::of(springs, &masses);
         let duration = setup.dt * steps as f64;
-        let joints = bends * others::joints(setup, &masses);
+        let bending = others::corners(setup, &masses, bends, twists);
         let (stiffness, damping) = others::each(setup);
         let highest =
-            Mode { stiffness: bound.stiffness.sum + joints + stiffness, damping: bound.damping.sum + damping };
+            Mode { stiffness: bound.stiffness.sum + bending + stiffness, damping: bound.damping.sum + damping };
         let mut safe = safe(build, highest, duration).await?;
-        if build().is_implicit() && joints > 0.0 {
+        if build().is_implicit() && bending > 0.0 {
             // They stay explicit in the same step.
-            let bending = Mode { stiffness: joints, damping: 0.0 };
-            safe = safe.min(limit(&|| Box::new(SymplecticEuler), bending, duration).await?);
+            let mode = Mode { stiffness: bending, damping: 0.0 };
+            safe = safe.min(limit(&|| Box::new(SymplecticEuler), mode, duration).await?);
         }
         let by_damping = if safe.is_finite() && safe > 0.0 {
             safe * highest.stiffness < 2.0 * highest.damping
         } else {
             highest.stiffness == 0.0
         };
-        let mut verdict = Self { bound, joints, safe, lost: f64::INFINITY, by_damping };
+        let mut verdict = Self { bound, bending, safe, lost: f64::INFINITY, by_damping };
         if setup.dt > safe && !springs.is_empty() {
             let network = Network::new(springs, &masses, setup.state.position(), &setup.bounds);
             for mode in [network.quickest(), network.most_damped()] {
@@ -92,6 +93,10 @@ impl Verdict {
 }
 
 pub(super) async fn limit(build: Build<'_>, mode: Mode, duration: f64) -> Result<f64, Error> {
+    // Single precision holds no step for it.
+    if mode.stiffness > f64::from(f32::MAX) {
+        return Ok(0.0);
+    }
     Oscillator::new(build(), mode.stiffness.sqrt(), mode.damping)?.largest_step(duration).await
 }
 

@@ -33,6 +33,10 @@ pub(crate) const ROOM: &str = "kept_room";
 pub(crate) const SKIN: &str = "kept_skin";
 /// The part of the sides of a box for which cells are to be wide enough: likewise.
 pub(crate) const PART: &str = "kept_part";
+/// The multiple of its sides for which there are to be waves enough: likewise.
+pub(crate) const MOST: &str = "kept_most";
+/// The sides of a box at the start of the run, where a barostat changes it.
+pub(crate) const SIDES: &str = "kept_sides";
 
 /// The next unused id, in files.
 #[cfg(feature = "scene")]

@@ -267,6 +267,25 @@ typed! {
         /// Over = "list" or "auto": the skin of the neighbour list beyond the range; 0: a fifth of the range, and chosen anew while it runs \[length\].
         skin: f64,
     }
+    /// Charges, with the reaction field of a dielectric continuum beyond the cut-off radius (Barker & Watts 1973), or with all images of a periodic box (Ewald 1921).
+    Coulomb "coulomb" coulomb(range: f64) {
+        /// The cut-off radius R, where the energy ends \[length\].
+        range: f64,
+        /// Coulomb's constant k, 1 / 4π ε₀ \[energy length / charge²\].
+        coulomb: f64,
+        /// The relative permittivity ε of the continuum beyond R, such as 78.5 for water; 1: none, the energy is shifted only; 0: a conductor.
+        permittivity: f64,
+        /// In a periodic box: nearest images up to `range`, or Ewald sums over all images, in a conductor, of which the law between two ends at `range` (Ewald 1921): nearest, ewald.
+        images: Cow<'static, str>,
+        /// With images = "ewald": the error of the force between two charges, root mean square over a cube of side 2 R, 1e-10 to 0.1; rounding on a device adds some 1e-6 \[k q q' / R²\].
+        accuracy: f64,
+        /// How neighbours in range are found: by a cell list, by a neighbour list that is reused over steps, by the faster of both, or by brute force: near, list, auto, within.
+        over: Cow<'static, str>,
+        /// Over = "list" or "auto": the skin of the neighbour list beyond the range; 0: a fifth of the range, and chosen anew while it runs \[length\].
+        skin: f64,
+        /// Over = "list" or "auto": pairs up to so many bonds apart (springs, ropes and rods) are left out: 1, 1–2 pairs; 2, 1–3 pairs too; 3, 1–4 pairs too; 0: none.
+        exclude: u64,
+    }
     /// Lennard-Jones atoms, by pair of species, with four ways to end at the cut-off radius (Lennard-Jones 1931).
     LennardJones "lennard_jones" lennard_jones(range: f64) {
         /// ε, the depth of the well \[energy\].
@@ -481,6 +500,27 @@ typed! {
         /// Over = "list" or "auto": the skin of the neighbour list beyond the range; 0: a fifth of the range, and chosen anew while it runs \[length\].
         skin: f64,
     }
+    /// Pedestrians turn aside, and are as fast as there is room (Tordeux, Chraibi & Seyfried 2015).
+    CollisionFreeSpeed "collision_free_speed" collision_free_speed() {
+        /// The distance of centres up to which pedestrians see each other \[length\].
+        range: f64,
+        /// T, the time in which a pedestrian would be where the one in front is \[time\].
+        time_gap: f64,
+        /// A, what a pedestrian in touch adds to the desired direction, a unit vector.
+        repulsion: f64,
+        /// D, the distance over which that falls by e \[length\].
+        decay: f64,
+        /// What a wall of the plan in touch adds to the desired direction.
+        wall_repulsion: f64,
+        /// The distance over which that falls by e \[length\].
+        wall_decay: f64,
+        /// The species that it acts on, or "all".
+        species: Option<u32>,
+        /// How neighbours in range are found: by a cell list, by a neighbour list that is reused over steps, by the faster of both, or by brute force: near, list, auto, within.
+        over: Cow<'static, str>,
+        /// Over = "list" or "auto": the skin of the neighbour list beyond the range; 0: a fifth of the range, and chosen anew while it runs \[length\].
+        skin: f64,
+    }
     /// Pedestrians take up their desired speed, along a direction or to a target (Helbing & Molnár 1995).
     Walk "walk" walk() {
         /// Where pedestrians walk: along a direction, or to a target: direction, target.
@@ -537,6 +577,11 @@ typed! {
     /// Joints that resist bending: elastic rods, hair (Euler 1744).
     Joint "joint" joint() {
         /// What is evaluated: the three particles of a joint, which has its own stiffness.
+        over: Cow<'static, str>,
+    }
+    /// Torsions about bonds, by multiplicity and phase (Blondel & Karplus 1996).
+    Dihedral "dihedral" dihedral() {
+        /// What is evaluated: the four particles of a dihedral, which has its own stiffness, multiplicity and phase.
         over: Cow<'static, str>,
     }
     /// A fluid by smoothed particle hydrodynamics, weakly compressible (Monaghan 1994); fixed particles are its walls.

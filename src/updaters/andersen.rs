@@ -36,7 +36,7 @@ impl Andersen {
 impl Component for Andersen {
     fn properties(&self) -> Properties {
         let why = "andersen has a probability of collisions for steps of one length";
-        Properties { fixed_step: Some(why), constrains: true, thermostat: true, temperature: Some(self.bath.temperature), ..Properties::default() }
+        Properties { fixed_step: Some(why), constrains: true, thermostat: true, canonical: true, temperature: Some(self.bath.temperature), ..Properties::default() }
     }
     fn stage(&self, stage: Stage, plan: &mut Plan, problem: &Problem) -> Result<(), Error> {
         if stage == Stage::EndOfStep {

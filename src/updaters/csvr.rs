@@ -127,7 +127,7 @@ impl Component for Csvr {
     }
     fn properties(&self) -> Properties {
         let why = "csvr draws its noise for steps of one length";
-        Properties { fixed_step: Some(why), constrains: true, thermostat: true, temperature: Some(self.bath.temperature), ..Properties::default() }
+        Properties { fixed_step: Some(why), constrains: true, thermostat: true, canonical: true, temperature: Some(self.bath.temperature), ..Properties::default() }
     }
     fn stage(&self, stage: Stage, plan: &mut Plan, problem: &Problem) -> Result<(), Error> {
         if stage == Stage::EndOfStep {

@@ -35,7 +35,7 @@ impl Langevin {
 impl Component for Langevin {
     fn properties(&self) -> Properties {
         let why = "langevin draws its noise for steps of one length";
-        Properties { fixed_step: Some(why), constrains: true, thermostat: true, temperature: Some(self.bath.temperature), ..Properties::default() }
+        Properties { fixed_step: Some(why), constrains: true, thermostat: true, canonical: true, temperature: Some(self.bath.temperature), ..Properties::default() }
     }
     fn stage(&self, stage: Stage, plan: &mut Plan, problem: &Problem) -> Result<(), Error> {
         if stage == Stage::EndOfStep {

@@ -125,7 +125,7 @@ impl Component for NoseHoover {
     }
     fn properties(&self) -> Properties {
         let why = "nose_hoover is reversible in steps of one length";
-        Properties { fixed_step: Some(why), constrains: true, thermostat: true, temperature: Some(self.temperature), ..Properties::default() }
+        Properties { fixed_step: Some(why), constrains: true, thermostat: true, canonical: true, temperature: Some(self.temperature), ..Properties::default() }
     }
     fn stage(&self, stage: Stage, plan: &mut Plan, problem: &Problem) -> Result<(), Error> {
         if matches!(stage, Stage::StartOfStep | Stage::EndOfStep) {

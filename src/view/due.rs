@@ -9,10 +9,10 @@ use crate::error::Error;
 use crate::kernel::Backend;
 
 impl<B: Backend> View<B> {
-    /// Whether it stands still and the picture shows it, so that nothing need be drawn until there is input.
+    /// Whether it stands still, and picture and controls show it, so that nothing need be drawn until there is input.
     #[must_use]
     pub fn rests(&self) -> bool {
-        self.paused && self.is_drawn() && !self.measures_lack()
+        self.paused && self.is_drawn() && !self.measures_lack() && self.shown
     }
     /// The size of the picture that is to be seen, and whether it is smooth.
     fn due(&self) -> ([u32; 2], bool) {
@@ -23,6 +23,7 @@ impl<B: Backend> View<B> {
         if self.is_drawn() {
             return Ok(());
         }
+        self.shown = false;
         let (size, smooth) = self.due();
         let begun = Instant::now();
         match self.stage.draw(size, smooth).await {
@@ -39,7 +40,7 @@ impl<B: Backend> View<B> {
     }
     /// The picture is of another state, or is to be another one.
     pub(super) fn changed(&mut self) {
-        (self.drawn, self.undrawn) = (false, None);
+        (self.drawn, self.undrawn, self.shown) = (false, None, false);
     }
     /// Whether the picture is of what there is, or cannot be drawn.
     fn is_drawn(&self) -> bool {
@@ -53,7 +54,7 @@ impl<B: Backend> View<B> {
     }
     /// Measures the state, once also where that fails.
     pub(super) async fn measure(&mut self) -> Result<(), Error> {
-        self.measured = Some(self.stage.simulation.steps());
+        (self.measured, self.shown) = (Some(self.stage.simulation.steps()), false);
         let snapshot = Arc::new(self.stage.simulation.snapshot().await?);
         self.plots.take(&snapshot);
         // A film has one scale.

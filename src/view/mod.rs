@@ -94,6 +94,8 @@ pub struct View<B: Backend> {
     undrawn: Option<([u32; 2], bool)>,
     /// The step that was measured last, if forces and the measures that are looked at are as they were.
     measured: Option<u64>,
+    /// Whether the last frame did nothing that its controls, which come first, have not shown.
+    shown: bool,
 }
 
 impl<B: Backend> View<B> {
@@ -128,6 +130,7 @@ impl<B: Backend> View<B> {
             drawn: false,
             undrawn: None,
             measured: None,
+            shown: false,
         })
     }
     /// The simulation. Its field [`PICTURE`] holds the last picture. What is written to it while the run stands still is drawn after the next input.
@@ -217,7 +220,7 @@ impl<B: Backend> View<B> {
     }
     /// Says something.
     pub fn say(&mut self, text: impl Into<String>) {
-        self.message = text.into();
+        (self.message, self.shown) = (text.into(), false);
     }
     /// The id of the particle that was chosen, and where it is, if one was.
     #[must_use]
@@ -234,6 +237,7 @@ impl<B: Backend> View<B> {
     /// # Errors
     /// When the device is lost, out of memory or does not answer in time.
     pub async fn advance(&mut self) -> Result<(), Error> {
+        self.shown = true;
         for action in std::mem::take(&mut self.actions) {
             self.changed();
             if let Err(error) = self.act(action).await {
@@ -269,8 +273,9 @@ impl<B: Backend> View<B> {
         let Some(chosen) = &mut self.chosen else { return Ok(()) };
         let time = self.stage.time();
         if !chosen.update(&mut self.stage.simulation, time, self.paused).await? {
-            self.message = format!("particle {} has left the simulation", chosen.id);
+            let id = chosen.id;
             self.chosen = None;
+            self.say(format!("particle {id} has left the simulation"));
             return Ok(());
         }
         if let (true, Some(center)) = (chosen.follow, chosen.position) {
@@ -354,7 +359,7 @@ impl<B: Backend> View<B> {
         if matches!(error, Error::Device(_) | Error::Timeout { .. } | Error::OutOfMemory(_)) {
             return Err(error);
         }
-        self.message = error.to_string();
+        self.say(error.to_string());
         Ok(())
     }
     async fn act(&mut self, action: Action) -> Result<(), Error> {

@@ -5,7 +5,7 @@ use crate::error::Error;
 use crate::kernel::{Problem, Source};
 
 /// Files that are joined with a law that calls a function of theirs and does not define it.
-const ON_CALL: [(&str, Source); 11] = [
+const ON_CALL: [(&str, Source); 13] = [
     ("is_of", crate::shader!("law/species.wgsl")),
     ("unit", crate::shader!("law/steering.wgsl")),
     ("truncated", crate::shader!("law/steering.wgsl")),
@@ -14,6 +14,8 @@ const ON_CALL: [(&str, Source); 11] = [
     ("fraction", crate::shader!("law/random.wgsl")),
     ("circle", crate::shader!("law/circle.wgsl")),
     ("pair_index", crate::shader!("law/pair_index.wgsl")),
+    ("even_ended", crate::shader!("law/truncation_square.wgsl")),
+    ("even_ended", crate::shader!("law/truncation.wgsl")),
     ("ended", crate::shader!("law/truncation.wgsl")),
     ("touch", crate::shader!("grains/touch.wgsl")),
     ("bridged", crate::shader!("grains/bridge.wgsl")),
@@ -42,15 +44,24 @@ impl Law {
     pub(super) fn choice(&self) -> Option<Source> {
         (!self.defines("acts_on")).then_some(crate::shader!("visit/acts_on_all.wgsl"))
     }
-    /// Whether its file has the energy of a pair, from which its force follows.
+    /// Whether its file has the energy of a pair, from which its force follows: by the distance, or by its square.
     pub(super) fn is_potential(&self) -> bool {
-        self.wgsl.defines("energy") && !self.defines("gather")
+        (self.wgsl.defines("energy") || self.is_even()) && !self.defines("gather")
+    }
+    /// Whether its file has the energy of a pair by the square of the distance.
+    pub(super) fn is_even(&self) -> bool {
+        self.wgsl.defines("even_energy")
     }
     /// The files with its sum over pairs, unless its own has one: that of a pair potential, or one of accelerations.
     pub(super) fn sums(&self) -> Vec<Source> {
         let mut files = Vec::new();
         if self.is_potential() {
             files.push(crate::shader!("visit/potential.wgsl"));
+            files.push(if self.is_even() {
+                crate::shader!("visit/potential_square.wgsl")
+            } else {
+                crate::shader!("visit/potential_distance.wgsl")
+            });
             if !self.wgsl.defines("finish") {
                 files.push(crate::shader!("visit/potential_finish.wgsl"));
             }

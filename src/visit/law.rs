@@ -13,7 +13,7 @@ use crate::error::Error;
 use crate::kernel::{
     ACCELERATION, Access, Kernel, Name, Problem, Reference, Scalar, Shader, Side, Source, Table, VELOCITY, World,
 };
-use crate::links::{Corner, Half};
+use crate::links::{Half, Shared};
 use crate::neighbors::Grid;
 use crate::tree::Tree;
 
@@ -32,6 +32,8 @@ pub struct Law {
     pub params: Vec<(String, Scalar)>,
     /// Parameters of pairs of species, where it has any: `var<storage, read> pair_table: array<Pair>`.
     pub pairs: Option<PairTable>,
+    /// Values for `override`s, some of which its files may not have.
+    pub constants: Vec<(&'static str, f64)>,
     /// Tables of data, by the names under which its WGSL binds them.
     pub tables: Vec<Table>,
     /// The columns that it writes; by default `acceleration`. Each other column is bound as `var<storage, read_write>` under its name.
@@ -97,6 +99,7 @@ impl Law {
             wgsl,
             params,
             pairs: None,
+            constants: Vec::new(),
             tables: Vec::new(),
             into: vec![ACCELERATION.name.into()],
             reference: None,
@@ -267,18 +270,18 @@ impl Law {
         let reference = tied(Tables::None);
         Self { reciprocal: true, tied: Some(tied), virial, ..Self::plain(name, Over::Links, wgsl, params, reference) }
     }
-    /// A law of joints or triangles; `rule(corners, place, stiffness, world)` returns the force on the corner with index `place`, and the
-    /// energy of the whole, a third of which belongs to each corner.
-    pub fn corners(
+    /// A law of joints or triangles (three corners) or of dihedrals (four); `rule(corners, corner, world)` returns the force on the one with the
+    /// index `corner.place`, and the energy of the whole, of which each corner has the same part.
+    pub fn corners<const N: usize, C: Shared<N>>(
         name: &str,
         over: Over,
         wgsl: Source,
         params: Vec<(String, Scalar)>,
-        rule: impl Fn([&Particle; 3], &Corner, &World) -> DVec4 + Send + Sync + 'static,
+        rule: impl Fn([&Particle; N], &C, &World) -> DVec4 + Send + Sync + 'static,
     ) -> Self {
         let rule = Arc::new(rule);
-        let virial = (over == Over::Joints).then(|| virial::joints(rule.clone()));
-        let rule = move |at: [&Particle; 3], corner: &Corner, world: &World| rule(at, corner, world);
+        let virial = (over != Over::Triangles).then(|| virial::corners(over, rule.clone()));
+        let rule = move |at: [&Particle; N], corner: &C, world: &World| rule(at, corner, world);
         Self { virial, ..Self::plain(name, over, wgsl, params, reference::corners(over, rule)) }
     }
     /// The kernel of the law with its visit, for a problem.
@@ -304,7 +307,7 @@ impl Law {
             Over::List { range, slots, .. } => list::kernel(self, range, slots, problem),
             Over::Auto { .. } => Err(Error::Scene(format!("`{}` has no visit", self.name))),
             Over::Tree { opening, core, .. } => tree::kernel(self, &Tree::new(opening, core, problem), problem),
-            Over::Links | Over::Joints | Over::Triangles => links::kernel(self, problem),
+            Over::Links | Over::Joints | Over::Dihedrals | Over::Triangles => links::kernel(self, problem),
         };
         kernel.map(|kernel| two_words::refined(kernel, over, problem))
     }
@@ -402,8 +405,9 @@ impl Law {
             return Ok(());
         }
         if self.is_potential() {
+            let even = "fn even_energy(me: Particle, you: Particle, square: f32, inverse: f32) -> Energy";
             let energy = "fn energy(me: Particle, you: Particle, distance: f32, inverse: f32) -> Energy";
-            self.requires(&[("energy", energy)])?;
+            self.requires(&[if self.is_even() { ("even_energy", even) } else { ("energy", energy) }])?;
             return self.agrees("fn acts_on(me: Particle) -> bool");
         }
         self.requires(&[

@@ -1,4 +1,4 @@
-//! Each particle is evaluated with the particles that it is linked to: by springs, or as corners of joints and triangles.
+//! Each particle is evaluated with the particles that it is linked to: by springs, or as corners of joints, dihedrals and triangles.
 
 use std::sync::Arc;
 
@@ -7,7 +7,7 @@ use crate::error::Error;
 use crate::kernel::{ALARM, ALARM_WORDS, Kernel, Name, Pass, Problem, Shader};
 use crate::links::Network;
 
-/// The start of each particle's links, and the links; for joints and triangles these names of the shader are bound to other tables.
+/// The start of each particle's links, and the links; for what has corners these names of the shader are bound to other tables.
 pub const LINK_START: &str = "link_start";
 /// See [`LINK_START`].
 pub const LINK: &str = "link";
@@ -17,6 +17,9 @@ fn tables(over: Over, network: &Network) -> Vec<(&'static str, &'static str, &Ar
     match over {
         Over::Joints => {
             vec![("corner_start", "joint_start", &network.joint_start), ("corner", "joint", &network.joint)]
+        }
+        Over::Dihedrals => {
+            vec![("corner_start", "dihedral_start", &network.dihedral_start), ("corner", "dihedral", &network.dihedral)]
         }
         Over::Triangles => {
             vec![("corner_start", "triangle_start", &network.triangle_start), ("corner", "triangle", &network.triangle)]
@@ -63,6 +66,10 @@ pub fn kernel(law: Law, problem: &Problem) -> Result<Kernel, Error> {
     let mut files = vec![crate::shader!("world.wgsl"), crate::shader!("fields.wgsl"), problem.precision.particle()];
     let tables = Tables::of(problem);
     if corners {
+        files.push(match law.over {
+            Over::Dihedrals => crate::shader!("visit/corner_of_four.wgsl"),
+            _ => crate::shader!("visit/corner_of_three.wgsl"),
+        });
         files.push(crate::shader!("visit/corners.wgsl"));
     } else {
         files.extend([tables.file(), crate::shader!("visit/links.wgsl")]);
@@ -80,6 +87,7 @@ pub fn kernel(law: Law, problem: &Problem) -> Result<Kernel, Error> {
     let network = &problem.network;
     let elements = match law.over {
         Over::Joints => network.joint_start.last(),
+        Over::Dihedrals => network.dihedral_start.last(),
         Over::Triangles => network.triangle_start.last(),
         _ => network.link_start.last(),
     };

@@ -54,7 +54,7 @@ pub fn shared(laws: &[Law], problem: &Problem) -> Result<Option<ListShape>, Erro
         if known.exclude != law.exclude {
             return Err(Error::Scene(format!(
                 "`{}` has exclude = {}, and another law over the same list has {}: one list serves both, and lacks the same pairs for both; give \
-                 them the same `exclude`, or remove it, or set over = \"near\" for the one that has none",
+                 them the same `exclude`, or remove it; without a barostat, over = \"near\" serves the one that has none, too",
                 law.name, law.exclude, known.exclude
             )));
         }

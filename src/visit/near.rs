@@ -59,15 +59,20 @@ impl Candidate {
     };
 }
 
-/// The files for a search of all neighbours in range.
+/// The files for a search of all neighbours in range, of which a law evaluates each.
 pub fn search(grid: &Grid, machine: &Machine, candidate: Candidate) -> Vec<Source> {
+    search_by(grid, machine, candidate, crate::shader!("visit/near_eight.wgsl"))
+}
+
+/// The same with the file of `fn consider_eight`, which subgroups call for eight candidates.
+pub fn search_by(grid: &Grid, machine: &Machine, candidate: Candidate, eight: Source) -> Vec<Source> {
     let by = match grid.of {
         Some(_) => crate::shader!("visit/near_ids.wgsl"),
         None => crate::shader!("visit/near_slots.wgsl"),
     };
     let mut files = vec![candidate.particle, by];
     if broadcasts(machine) {
-        files.extend([candidate.broadcast, crate::shader!("visit/near_subgroup.wgsl")]);
+        files.extend([candidate.broadcast, eight, crate::shader!("visit/near_subgroup.wgsl")]);
     } else {
         files.extend([crate::shader!("visit/near_walk.wgsl"), crate::shader!("visit/near_lanes.wgsl")]);
     }

@@ -58,14 +58,28 @@ pub enum Over {
     Links,
     /// Each particle with its joints.
     Joints,
+    /// Each particle with its dihedrals.
+    Dihedrals,
     /// Each particle with the triangles that it is a corner of.
     Triangles,
 }
 
 impl Over {
     /// The names of the visits in scenes.
-    pub const NAMES: &'static [&'static str] =
-        &["each", "pairs", "within", "near", "list", "nearest", "tree", "auto", "links", "joints", "triangles"];
+    pub const NAMES: &'static [&'static str] = &[
+        "each",
+        "pairs",
+        "within",
+        "near",
+        "list",
+        "nearest",
+        "tree",
+        "auto",
+        "links",
+        "joints",
+        "dihedrals",
+        "triangles",
+    ];
 
     /// Its name in scenes.
     #[must_use]
@@ -81,6 +95,7 @@ impl Over {
             Self::Tree { auto: true, .. } | Self::Auto { .. } => "auto",
             Self::Links => "links",
             Self::Joints => "joints",
+            Self::Dihedrals => "dihedrals",
             Self::Triangles => "triangles",
         }
     }

@@ -10,7 +10,7 @@ use super::tied::{Tables, Tied, row};
 use super::{Outcome, Over, Search, result};
 use crate::error::Error;
 use crate::kernel::{ACCELERATION, Bounds, Host, Reference, World};
-use crate::links::{Corner, Exclusions, Half};
+use crate::links::{Exclusions, Half, Shared};
 use crate::neighbors::exclusions;
 
 /// Particles that a thread takes at least: fewer are done before another thread is awake.
@@ -178,12 +178,21 @@ fn linked<S: Default>(
     })
 }
 
-/// The corners of joints or triangles, in the order of the table.
-pub fn corners(
+/// The table of what several particles share: its starts, and its elements.
+pub(super) fn shared_tables(over: Over) -> [&'static str; 2] {
+    match over {
+        Over::Joints => ["joint_start", "joint"],
+        Over::Dihedrals => ["dihedral_start", "dihedral"],
+        _ => ["triangle_start", "triangle"],
+    }
+}
+
+/// The corners of joints, dihedrals or triangles, in the order of the table.
+pub fn corners<const N: usize, C: Shared<N>>(
     over: Over,
-    rule: impl Fn([&Particle; 3], &Corner, &World) -> DVec4 + Send + Sync + 'static,
+    rule: impl Fn([&Particle; N], &C, &World) -> DVec4 + Send + Sync + 'static,
 ) -> Reference {
-    let names = if over == Over::Joints { ["joint_start", "joint"] } else { ["triangle_start", "triangle"] };
+    let names = shared_tables(over);
     Arc::new(move |host| {
         let view = View::of(host)?;
         let (bodies, world) = (view.particles(), host.world());
@@ -193,9 +202,9 @@ pub fn corners(
         let (start, corner) = (host.reading::<u32>(names[0])?, host.reading::<u32>(names[1])?);
         let mut acceleration = host.write(ACCELERATION)?;
         acceleration.par_iter_mut().zip(&bodies).with_min_len(PIECE).for_each(|(a, me)| {
-            let corners = row(&start, &corner, me.index, Corner::WORDS).map(Corner::new);
-            let sum: DVec4 = corners.map(|corner| rule(corner.ids.map(|id| &bodies[id]), &corner, &world)).sum();
-            *a += sum / me.mass * DVec4::new(1.0, 1.0, 1.0, 1.0 / 3.0);
+            let corners = row(&start, &corner, me.index, C::WORDS).map(C::new);
+            let sum: DVec4 = corners.map(|corner| rule(corner.ids().map(|id| &bodies[id]), &corner, &world)).sum();
+            *a += sum / me.mass * DVec3::ONE.extend(1.0 / N as f64);
         });
         Ok(())
     })

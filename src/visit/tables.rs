@@ -1,12 +1,15 @@
-//! The tables of a law, of pairs of species and of data, bound to fields of its own.
+//! The tables of a law, of pairs of species and of data, bound to fields of its own, and its constants.
 
 use super::{Law, PAIR_TABLE, numbered};
 use crate::error::Error;
 use crate::kernel::{Access, Kernel, Name, Pass, Problem};
 
 impl Law {
-    /// The tables that its WGSL binds, of pairs of species and of data.
+    /// The tables that its WGSL binds, of pairs of species and of data, and the values of its `override`s.
     pub(super) fn bind_tables(&self, kernel: &mut Kernel, problem: &Problem) -> Result<(), Error> {
+        for pass in &mut kernel.passes {
+            pass.constants.extend(pass.shader.reflection().known(&self.constants));
+        }
         let passes = kernel.passes.clone();
         let binding = |name: &str| {
             let mut all = passes.iter().flat_map(|pass| &pass.shader.reflection().bindings);

@@ -1,18 +1,18 @@
-//! The virial of a law of pairs, links or joints, by the same functions as its accelerations.
+//! The virial of a law of pairs, links, joints or dihedrals, by the same functions as its accelerations.
 
 use std::sync::Arc;
 
 use glam::{DVec3, DVec4, Vec4};
 use rayon::prelude::*;
 
-use super::reference::{ByTables, left_out};
+use super::reference::{ByTables, left_out, shared_tables};
 use super::tied::row;
 use super::{Law, Over, Particle, Tables, Tied, View};
 use crate::error::Error;
 use crate::kernel::{ACCELERATION, Field, Kernel, Name, Pass, Problem, Reference, Shader, Source, World};
-use crate::links::{Corner, Half};
+use crate::links::{Half, Shared};
 
-/// −½ Σ r ⊗ F of each particle, and of a joint (x − x₂) ⊗ F at each of its ends \[energy\], two elements of it: xx, yy, zz, and by how much
+/// −½ Σ r ⊗ F of each particle, and of a joint or a dihedral (x − x₂) ⊗ F at each of its ends \[energy\], two elements of it: xx, yy, zz, and by how much
 /// these forces do not add up to the force; yz, xz, xy, and the sum of their sizes \[force\].
 pub const VIRIAL: Field<Vec4> = Field::new("virial");
 
@@ -27,7 +27,7 @@ impl Law {
     /// A kernel that adds the virial of its forces; `None` for a law that exerts none between particles.
     ///
     /// # Errors
-    /// [`Error::Scene`] where they are not those of pairs in range, of links or of joints.
+    /// [`Error::Scene`] where they are not those of pairs in range, of links, joints or dihedrals.
     pub fn virial(&self, problem: &Problem) -> Result<Option<Kernel>, Error> {
         if !self.accelerates() || self.over == Over::Each {
             return Ok(None);
@@ -37,6 +37,7 @@ impl Law {
         match law.over {
             Over::Links
             | Over::Joints
+            | Over::Dihedrals
             | Over::Pairs
             | Over::Within { .. }
             | Over::Near { .. }
@@ -86,7 +87,7 @@ impl Law {
         files.push(crate::shader!("visit/virial.wgsl"));
         files.push(match self.over {
             Over::Links => crate::shader!("visit/virial_links.wgsl"),
-            Over::Joints => crate::shader!("visit/virial_joints.wgsl"),
+            Over::Joints | Over::Dihedrals => crate::shader!("visit/virial_corners.wgsl"),
             _ => crate::shader!("visit/virial_pairs.wgsl"),
         });
         files.extend(merges.then_some(crate::shader!("visit/virial_merge.wgsl")));
@@ -98,7 +99,7 @@ impl Law {
 #[must_use]
 pub fn no_virial(name: &str, why: &str) -> Error {
     Error::Scene(format!(
-        "`{name}` {why}, and the virial is that of forces of pairs in range, of links and of joints: leave out what measures the pressure"
+        "`{name}` {why}, and the virial is that of forces of pairs in range, of links, joints and dihedrals: leave out what measures the pressure"
     ))
 }
 
@@ -201,21 +202,31 @@ pub fn links<S: Default>(
     })
 }
 
-/// The reference of joints.
-pub fn joints(rule: Arc<impl Fn([&Particle; 3], &Corner, &World) -> DVec4 + Send + Sync + 'static>) -> ByTables {
+/// The reference of joints and of dihedrals.
+pub fn corners<const N: usize, C: Shared<N>>(
+    over: Over,
+    rule: Arc<impl Fn([&Particle; N], &C, &World) -> DVec4 + Send + Sync + 'static>,
+) -> ByTables {
+    let names = shared_tables(over);
     let reference: Reference = Arc::new(move |host| {
         let (view, world) = (View::of(host)?, host.world());
-        if !host.contains("joint") {
+        if !host.contains(names[1]) {
             return Ok(());
         }
         let (bodies, start, corner) =
-            (view.particles(), host.reading::<u32>("joint_start")?, host.reading::<u32>("joint")?);
+            (view.particles(), host.reading::<u32>(names[0])?, host.reading::<u32>(names[1])?);
         let mut virial = host.write(VIRIAL)?;
         virial.par_chunks_mut(2).zip(&bodies).for_each(|(result, me)| {
             let mut parts = Parts::default();
-            for corner in row(&start, &corner, me.index, Corner::WORDS).map(Corner::new) {
-                let at = corner.ids.map(|id| &bodies[id]);
-                let r = world.bounds.shortest(at[1].position - me.position);
+            for corner in row(&start, &corner, me.index, C::WORDS).map(C::new) {
+                let (ids, at) = (corner.ids(), corner.ids().map(|id| &bodies[id]));
+                // Along the bonds from the second one.
+                let bond = |from: usize, to: usize| world.bounds.shortest(at[to].position - at[from].position);
+                let r = match ids.iter().position(|id| *id == me.index) {
+                    Some(0) => bond(0, 1),
+                    Some(place) => (1..place).map(|n| bond(n + 1, n)).sum(),
+                    None => DVec3::ZERO,
+                };
                 parts.add(r, rule(at, &corner, &world).truncate(), 1.0);
             }
             let whole = parts.sum;

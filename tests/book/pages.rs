@@ -98,7 +98,7 @@ fn equations(folder: &str, page: &mut String) {
 
 fn methods() -> String {
     let mut page = format!(
-        "# Equations and sources\n\n{GENERATED}\nEach shader opens with what it computes and where that was published.\n"
+        "# Equations and sources\n\n{GENERATED}\nEach shader, and each measure, opens with what it computes and where that was published.\n"
     );
     for (title, folder) in [
         ("Interactions", "interactions"),
@@ -114,6 +114,17 @@ fn methods() -> String {
     ] {
         let _ = write!(page, "\n## {title}\n");
         equations(folder, &mut page);
+    }
+    page.push_str("\n## Measures\n");
+    for measure in motes::measure::MEASURES {
+        let name = measure.name;
+        let file = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("src/measure/{name}.rs"));
+        let text = std::fs::read_to_string(file).expect("a text");
+        let _ = write!(page, "\n### `src/measure/{name}.rs`\n\n```text\n");
+        for line in text.lines().map_while(|line| line.strip_prefix("//!")) {
+            let _ = writeln!(page, "{}", line.strip_prefix(' ').unwrap_or(line));
+        }
+        page.push_str("```\n");
     }
     page
 }

@@ -65,11 +65,14 @@ fn particles(name: &str) -> &'static str {
         "social_force" => {
             "[[particles]]\nshape = \"lattice\"\nsize = [3, 3, 1]\nspacing = 1\nmass = 80\nradius = 0.3\n"
         }
+        "collision_free_speed" => {
+            "[box]\nsize = [9, 9, 0]\n[[particles]]\nshape = \"lattice\"\nsize = [3, 3, 1]\nspacing = 1\nradius = 0.2\ndesired_speed = 1.3\n[[force]]\nkind = \"walk\"\n"
+        }
         "walk" => "[[particles]]\nshape = \"lattice\"\nsize = [3, 3, 1]\nspacing = 1\ndesired_speed = 1.3\n",
         "navigate" | "social_wall" => {
             "[box]\nsize = [20, 20, 0]\nboundary = \"open\"\n[plan]\nfile = \"room.wkt\"\n[[particles]]\nshape = \"crowd\"\ncount = 9\nsize = [5, 5, 0]\ncenter = [5, 5, 0]\n"
         }
-        "born_mayer" => "[[particles]]\nshape = \"lattice\"\nsize = [3, 3, 3]\nspacing = 1\ncharge = 1\n",
+        "born_mayer" | "coulomb" => "[[particles]]\nshape = \"lattice\"\nsize = [3, 3, 3]\nspacing = 1\ncharge = 1\n",
         _ => "[box]\nsize = [3, 3, 3]\n[[particles]]\nshape = \"box\"\ncount = 40\nsize = [2, 2, 2]\nspeed = 0.5\n",
     }
 }
@@ -188,7 +191,11 @@ fn states_that_go_on_are_on_the_floor_with_a_way() {
     let (code, said) = from("same", None);
     assert_eq!(code, Some(0), "{said}");
     for (name, x, why) in [
-        ("off", "12", "1 particles are in a wall or off the floor of the plan, the first of them particle 0 at 12 "),
+        (
+            "off",
+            "12",
+            "1 particles are on or in a wall, or off the floor of the plan, the first of them particle 0 at 12 ",
+        ),
         ("sealed", "7", "1 particles have no way to an exit, the first of them particle 0 at 7 "),
     ] {
         let (code, said) = from(name, Some(x));

@@ -156,6 +156,7 @@ fn scenes_scale_by_one_number() {
         "brazil_nut",
         "sandcastle",
         "room",
+        "lanes",
         "stiff",
         "spring_chain",
         "poiseuille",

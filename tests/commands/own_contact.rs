@@ -35,6 +35,7 @@ fn small(steps: u32) -> String {
 
 /// Bridges of liquid hold a block of grains, which runs out without them; each measure that grains have gives numbers.
 #[test]
+#[ignore = "minutes on a software adapter: `tests/run --test physics --test commands -- --include-ignored` runs it"]
 fn a_castle_stands_by_its_bridges_and_is_measured() {
     let folder = tempfile::tempdir().expect("a folder");
     let more = "[[column]]\nname = \"unwrapped\"\nkind = \"vector\"\nrate = \"velocity\"\ninitial = [0, 0, 0]\n[[measure]]\nkind = \"thermo\"\n[[measure]]\nkind = \"diffusion\"\n\

@@ -110,6 +110,7 @@ fn office(door: f64) -> String {
 }
 
 #[test]
+#[ignore = "minutes on a software adapter: `tests/run --test physics --test commands -- --include-ignored` runs it"]
 fn the_bottleneck_of_a_drawn_office_moves_with_the_door() {
     let crowd = ["--scale", "1:100", "--people", "60", "--start", "0.6,0.6,15.3,6.2"];
     for (door, middle) in [(20.0, 3.05), (110.0, 12.05)] {

@@ -21,4 +21,5 @@ mod references;
 mod repeat;
 mod state;
 mod stress;
+mod structure;
 mod tree;

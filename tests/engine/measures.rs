@@ -14,7 +14,7 @@ use motes::{Bounds, Error, Setup, Side, State};
 use crate::support::Random;
 use crate::support::states::{force, word};
 
-fn setup(state: &State, bounds: Bounds) -> Setup {
+pub fn setup(state: &State, bounds: Bounds) -> Setup {
     Setup {
         state: state.clone(),
         forces: Vec::new(),
@@ -88,7 +88,7 @@ fn tables_have_names_of_their_own_and_rows_as_long_as_their_headers() {
     let radius = motes::Column::new("radius", motes::Kind::Scalar, "length", "");
     state.declare(&radius).expect("a column");
     state.set("radius", Array::Float(vec![0.1; state.len()])).expect("a column");
-    let range = [("range", Value::Number(0.9)), ("start", Value::Vector(DVec3::ZERO))];
+    let range = [("range", Value::Number(0.9)), ("largest", Value::Number(9.0)), ("start", Value::Vector(DVec3::ZERO))];
     for measure in MEASURES.iter().filter(|measure| measure.name != "fluid") {
         let sets: Vec<_> =
             range.iter().filter(|(key, _)| measure.keys.iter().any(|k| k.name == *key)).cloned().collect();

@@ -167,7 +167,7 @@ pub fn all(device: &Device, stages: &mut Vec<Stage>) {
                 let (mut simulation, step, _) = make(1);
                 put(&mut simulation, "box_strain", &[strain]);
                 put(&mut simulation, "box_corner_low", &[left[0], left[1], left[2], 0.0]);
-                put(&mut simulation, "box_watch", &[side, 0.25, 1.5, 0.0]);
+                put(&mut simulation, "box_watch", &[side, 0.25, 1.5, 20.0 * side]);
                 let change = chosen(&step, |kernel| kernel.name.starts_with("box"));
                 stages.push(Stage::of("box", simulation, change).slack(4.0));
             }

@@ -4,7 +4,7 @@
 use glam::{DVec2, DVec3};
 use motes::floor_plan::{Exit, FloorPlan, Polygon};
 use motes::forces::Component;
-use motes::kernel::{Array, Backend, Kernel, Machine, POSITION, Plan};
+use motes::kernel::{Array, Backend, Kernel, Machine, POSITION, Plan, VELOCITY};
 use motes::settings::Value;
 use motes::{Bounds, Gpu, Setup, Simulation, Solver, State};
 
@@ -16,13 +16,16 @@ use crate::support::{self, Random};
 
 const EDGE: &str = "no pedestrian lies exactly at the edge";
 const NO_WALL: &str = "behind the last wall stands that again, or one without length, which is not crossed";
+const TWO_WALLS: &str = "a way from floor to floor crosses two walls, or none";
+const AT_THE_LEFT: &str = "on the floor, what is beyond an end that does not stick out is at the left of its piece";
+const AS_NEAR: &str = "of two that are as near either leaves the same spacing";
 const ALWAYS_SET: &str = "the host sets every override";
 
 pub const EQUIVALENT: &[Equivalent] = &[
     same("keep.wgsl", "override COUNT: u32 = 1u;", "1u", "2u", ALWAYS_SET),
     same("keep.wgsl", "override SPECIES: u32 = 1u;", "1u", "2u", ALWAYS_SET),
     same("sight.wgsl", "override COUNT: u32 = 1u;", "1u", "2u", ALWAYS_SET),
-    same("sight.wgsl", "var k = 0u", "0u", "1u", "a way from floor to floor crosses two walls, or none"),
+    same("sight.wgsl", "var k = 0u", "0u", "1u", TWO_WALLS),
     same("sight.wgsl", "k < COUNT", "<", "<=", NO_WALL),
     same("keep.wgsl", "k < COUNT", "<", "<=", NO_WALL),
     same("exits.wgsl", "override COUNT: u32 = 1u;", "1u", "2u", ALWAYS_SET),
@@ -30,6 +33,29 @@ pub const EQUIVALENT: &[Equivalent] = &[
     same("ways.wgsl", "override WIDTH: u32 = 1u;", "1u", "2u", ALWAYS_SET),
     same("ways.wgsl", "override SIDE: f32 = 1.0;", "1.0", "1.5", ALWAYS_SET),
     same("ways.wgsl", "if apart < SIDE", "<", "<=", EDGE),
+    same("crowds/floor.wgsl", "override COUNT: u32 = 1u;", "1u", "2u", ALWAYS_SET),
+    same("crowds/floor.wgsl", "seen = false;", "false", "true", "the first piece of a wall says whether it is seen"),
+    same("crowds/floor.wgsl", "const FAR", "1e9", "1500000000.0", "farther than any wall"),
+    same("crowds/floor.wgsl", "if dot(r, r) > clearance", ">", ">=", EDGE),
+    same("crowds/floor.wgsl", "hidden = hidden", "0u", "1u", TWO_WALLS),
+    same("crowds/floor.wgsl", "hidden = hidden", "<", "<=", NO_WALL).sometimes(),
+    same("crowds/floor.wgsl", "if distance < nearest", "<", "<=", "the end that two pieces share is one point"),
+    same("crowds/floor.wgsl", "let left", ">", ">=", EDGE),
+    same("crowds/floor.wgsl", "seen = left", "&", "|", AT_THE_LEFT),
+    same("crowds/floor.wgsl", "seen = left", ">", ">=", AT_THE_LEFT),
+    same("crowds/floor.wgsl", "seen = left", "1u", "2u", AT_THE_LEFT),
+    same("crowds/floor.wgsl", "seen = left", "2u", "3u", AT_THE_LEFT),
+    same("crowds/floor.wgsl", "seen = left", "0u", "1u", "one of the two bits is 2 or 0").sometimes(),
+    same("crowds/floor.wgsl", "if (wall.ends & 4u) > 0u", "0u", "1u", "the bit is 4 or 0"),
+    same("crowds/floor.wgsl", "if seen && nearest > 0.0", ">", ">=", EDGE),
+    // In one of three loops: what stands there has no distance.
+    same("crowds/floor.wgsl", "k < COUNT", "<", "<=", NO_WALL).sometimes(),
+    same("collision_free_speed.wgsl", "let is_in_front", ">=", ">", EDGE),
+    same("collision_free_speed.wgsl", "let is_in_front", "<=", "<", EDGE),
+    same("collision_free_speed.wgsl", "let is_nearest", "<", "<=", AS_NEAR),
+    same("collision_free_speed.wgsl", "if part.others > 0u", "<", "<=", AS_NEAR),
+    same("collision_free_speed.wgsl", "*sum = Sum(spacing, 1u);", "1u", "2u", "it is asked whether there are any"),
+    same("set_off.wgsl", "if i < world.count", "<", "<=", "behind the last particle no word is a speed"),
 ];
 
 fn number(x: f64) -> Value {
@@ -193,6 +219,71 @@ fn on_floor(device: &Device, stages: &mut Vec<Stage>, species: &Value) {
     }
 }
 
+/// Pedestrians on that floor, or on an open one, that set their velocities; steps so long that walls stop many.
+fn spaced(device: &Device, stages: &mut Vec<Stage>, species: &Value, plan: Option<FloorPlan>) {
+    let mut random = Random::new(31);
+    let mut state = people();
+    for x in state.position_mut() {
+        // Nearer, the direction from a wall is mostly rounding.
+        let free = |x: DVec2| plan.as_ref().is_none_or(|plan| plan.holds(x) && plan.distance(x) > 0.05);
+        *x = loop {
+            let place = (6.5 * random.vector().with_z(0.0)).as_vec3().as_dvec3();
+            if free(place.truncate()) {
+                break place;
+            }
+        };
+    }
+    // Two at one place, on an open floor far from the others.
+    if plan.is_none() {
+        state.position_mut()[8] = DVec3::new(12.0, 12.0, 0.0);
+    }
+    let twin = state.position()[8];
+    state.position_mut()[9] = twin;
+    state.held = [3, 64, 130].map(|id| motes::motion::Held { id, by: motes::motion::Hold::Fixed }).to_vec();
+    let drive = if plan.is_some() { "navigate" } else { "walk" };
+    let own = [
+        ("range", number(2.5)),
+        ("time_gap", number(0.7)),
+        ("repulsion", number(1.5)),
+        ("decay", number(0.3)),
+        ("wall_repulsion", number(1.25)),
+        ("wall_decay", number(0.2)),
+        ("over", word("within")),
+        ("species", species.clone()),
+    ];
+    // Those of one species have no direction that they desire.
+    let led = force(drive, &[("species", number(1.0))]);
+    let others = force("walk", &[("species", number(2.0)), ("direction", vector(0.3, -0.7, 0.0))]);
+    let forces: Vec<Box<dyn Component>> = vec![led, others, force("collision_free_speed", &own)];
+    let state = match plan {
+        Some(plan) => state.on_floor(plan),
+        None => state,
+    };
+    let bounds = Bounds { dimensions: 2, ..Bounds::default() };
+    let (integrator, solver) = (integrator("symplectic_euler"), Solver::default());
+    let setup = Setup { state, forces, integrator, dt: 0.25, bounds, solver };
+    let simulation = || {
+        let mut gpu = Gpu::new(&device.0, &device.1, few()).expect("a GPU");
+        gpu.pad(5);
+        let mut simulation = Simulation::on(gpu, &setup).expect("a simulation");
+        simulation.step(1).expect("a step");
+        simulation
+    };
+    let plans = setup.plans(Machine::HOST).expect("plans");
+    for name in [drive, "collision_free_speed", "turn aside", "keep spacing", "set off"] {
+        let all = plans.step.kernels.iter();
+        let kernel = all.clone().find(|kernel| kernel.name == name).unwrap_or_else(|| panic!("no {name}"));
+        let mut simulation = simulation();
+        if name == "set off" {
+            // Those that stop were on their way.
+            let mut velocities = pollster::block_on(simulation.read(VELOCITY)).expect("velocities");
+            velocities.iter_mut().for_each(|v| *v += random.vector().with_z(0.0).as_vec3().extend(0.0));
+            simulation.backend().write_bytes(VELOCITY.name, 0, bytemuck::cast_slice(&velocities)).expect("velocities");
+        }
+        stages.push(Stage::of(name, simulation, alone(kernel.clone())).slack(8.0));
+    }
+}
+
 /// Pedestrians all about exits that walls are before, behind and at the end of.
 fn behind_walls(device: &Device, stages: &mut Vec<Stage>) {
     let points = |list: &[[f64; 2]]| -> Vec<DVec2> { list.iter().copied().map(DVec2::from_array).collect() };
@@ -258,6 +349,10 @@ fn on_walls(device: &Device, stages: &mut Vec<Stage>) {
 pub fn all(device: &Device, stages: &mut Vec<Stage>) {
     on_floor(device, stages, &word("all"));
     on_floor(device, stages, &number(1.0));
+    for species in [word("all"), number(1.0)] {
+        spaced(device, stages, &species, Some(floor()));
+        spaced(device, stages, &species, None);
+    }
     behind_walls(device, stages);
     on_walls(device, stages);
     for (species, anisotropy) in [(word("all"), 0.3), (number(1.0), 1.0)] {

@@ -23,7 +23,8 @@ pub const EQUIVALENT: &[Equivalent] = &[
     same("histogram_few", "let end = min(first + BLOCK,", "+", "-", FIRST_DOES_ALL),
     same("histogram_few", "if count > 0u {", ">", ">=", "nothing is added"),
     same("radix_chunk_", "const WORKGROUP: u32 = 8u;", "8u", "9u", BY_REFLECTION),
-    same("radix_chunk_scatter", "let end = min(first + extent.block,", "+", "-", FIRST_DOES_ALL),
+    // Noticed since `bounded.rs` ends loops: the first in line has more turns than that where it does all.
+    same("radix_chunk_scatter", "let end = min(first + extent.block,", "+", "-", FIRST_DOES_ALL).sometimes(),
     same("radix_scatter", "let end = min(first + extent.block,", "+", "-", FIRST_DOES_ALL),
     same("radix_scatter", "start < end; start += TILE", "<", "<=", NOTHING_LEFT),
     same(

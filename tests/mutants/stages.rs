@@ -11,10 +11,11 @@ use motes::kernel::{
     ALARM, Backend, Element, Field, Kernel, Machine, Next, POSITION, Plan, SPECIES, Shader, Source, VELOCITY, Walk,
     World,
 };
-use motes::lockstep::{Verdict, compare_while};
+use motes::lockstep::{Known, Verdict, compare_again};
 use motes::settings::Value;
 use motes::{Gpu, Setup, Simulation, wgpu};
 
+use crate::bounded::bounded;
 use crate::support::machines::{alone, cut, kernel, machines};
 use crate::support::states::{force, integrator};
 use crate::support::{self, Shared};
@@ -40,6 +41,8 @@ pub struct Stage {
     simulation: Rc<RefCell<Simulation<Gpu>>>,
     fields: BTreeMap<String, Vec<u8>>,
     clock: World,
+    /// What the reference of the first kernel makes of that state.
+    known: RefCell<Known>,
     /// What a field must hold in the end, where no reference can be compared: NaN differs from NaN.
     expected: Option<(&'static str, Vec<f32>)>,
     /// How many times what is allowed elsewhere may be wrong.
@@ -80,6 +83,7 @@ impl Stage {
             simulation: shared,
             fields,
             clock,
+            known: RefCell::default(),
             expected: None,
             slack: 1.0,
             overlooked: None,
@@ -133,7 +137,8 @@ impl Stage {
             return Ok((!same).then(|| format!("{field} is not what was expected")));
         }
         let good = |v: &Verdict| v.worst <= self.slack && !v.spilled;
-        let all = pollster::block_on(compare_while(gpu, plan, count, good))?;
+        let mut known = self.known.borrow_mut();
+        let all = pollster::block_on(compare_again(gpu, plan, count, good, &mut known))?;
         if all.is_empty() {
             return Ok(Some("nothing is written".to_owned()));
         }
@@ -146,6 +151,10 @@ impl Stage {
     /// Drops the pipelines of mutants.
     pub fn forget(&self) {
         self.simulation.borrow_mut().backend().forget_pipelines();
+    }
+    /// Drops what the reference said, which takes memory.
+    pub fn forget_answers(&self) {
+        self.known.take();
     }
     /// The number of particles.
     pub fn count(&self) -> u32 {
@@ -166,8 +175,9 @@ impl Stage {
     /// The same with more files for each shader.
     pub fn with(&self, file: &str, text: &str, more: impl Fn(&Shader) -> Vec<Source>) -> Option<Plan> {
         let mut plan = self.plan.clone();
-        // A stranger's text: loops are bounded and memory starts at zero, so that no mutant hangs, or lives by chance.
-        let theirs = |s: &Source| if s.file == file { Source::theirs(file.into(), text.into()) } else { s.clone() };
+        let text = bounded(text);
+        // A stranger's text: memory starts at zero, so that no mutant lives by chance.
+        let theirs = |s: &Source| if s.file == file { Source::theirs(file.into(), text.clone()) } else { s.clone() };
         for pass in plan.kernels.iter_mut().flat_map(|k| &mut k.passes) {
             if pass.shader.sources().iter().any(|s| s.file == file) {
                 let sources = pass.shader.sources().iter().map(theirs).chain(more(&pass.shader));

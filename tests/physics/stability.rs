@@ -4,7 +4,7 @@ use crate::support::states::{force, integrator};
 use glam::DVec3;
 use motes::forces::Over;
 use motes::kernel::Source;
-use motes::links::Link;
+use motes::links::{Dihedral, Joint, Link};
 use motes::stability::{Bound, Network, Oscillator, Verdict, largest_step};
 use motes::{Bounds, Gpu};
 use pollster::block_on;
@@ -261,4 +261,38 @@ fn a_setup_is_judged() {
     );
     let safe = judged(vec![force("spring", &[])], "leapfrog", 0.02).expect("springs");
     assert!(safe.lost.is_infinite(), "no mode was looked at: {safe:?}");
+}
+
+/// A dihedral of right angles has |∇φ|² = Σ gᵢ² / mᵢ by hand: at its ends 1, and at those between 1 where the ends are above them. A bound by
+/// rows is no less than ω² = k n² |∇φ|², and with four entries at most twice that here. One that is in a line does not hide it, nor a joint.
+#[test]
+fn dihedrals_limit_the_step() {
+    let mut particles = motes::State::default();
+    for x in [DVec3::Y, DVec3::ZERO, DVec3::X, DVec3::new(1.0, 0.0, 1.0), DVec3::new(1.0, 0.0, 2.0)] {
+        particles.push(x, DVec3::ZERO, 0.5, 0.0);
+    }
+    let judged = |dihedrals: Vec<Dihedral>, joints: Vec<Joint>| {
+        let mut state = particles.clone();
+        (state.links.dihedrals, state.links.joints) = (dihedrals, joints);
+        let entry = motes::integrators::entry("leapfrog").expect("an integrator");
+        let (bounds, solver) = (Bounds::default(), motes::Solver::default());
+        let forces = vec![force("dihedral", &[]), force("joint", &[])];
+        let setup = motes::Setup { state, forces, integrator: entry.by_default(), dt: 1e-3, bounds, solver };
+        block_on(Verdict::of(&setup, &|| entry.by_default(), 1000)).expect("a verdict").expect("dihedrals")
+    };
+    let one = Dihedral { ids: [0, 1, 2, 3], stiffness: 3.0, multiplicity: 4, phase: 0.3 };
+    let straight = Dihedral { ids: [1, 2, 3, 4], stiffness: 1e6, multiplicity: 12, phase: 0.0 };
+    // Both bonds are across the axis, so that each of the two between takes up the turn of the end beside it.
+    let square = 3.0 * 16.0 * 4.0 / 0.5;
+    for dihedrals in [vec![one], vec![one, straight], vec![Dihedral { stiffness: -3.0, ..one }, straight]] {
+        let verdict = judged(dihedrals, Vec::new());
+        assert!((0.999 * square..=2.0 * square).contains(&verdict.bending), "{verdict:?}, not {square}");
+        assert!(verdict.safe <= 2.02 / square.sqrt() && verdict.safe > 0.5 * 2.0 / square.sqrt(), "{verdict:?}");
+    }
+    let joint = Joint { ids: [2, 3, 4], stiffness: 50.0, rest: 0.0 };
+    // k (1 + 4 + 1) / m, by rows at most k (2 · 4) / m.
+    let bent = judged(vec![straight], vec![joint]).bending;
+    assert!((600.0..=800.1).contains(&bent), "{bent}");
+    // What single precision does not hold is unstable at any step.
+    assert!(judged(vec![Dihedral { stiffness: 1e38, ..one }], Vec::new()).safe <= 0.0);
 }

@@ -129,6 +129,7 @@ const TABLE: [(usize, f64, f64, f64, f64); 6] = [
 ];
 
 #[test]
+#[ignore = "minutes on a software adapter: `tests/run --test physics --test commands -- --include-ignored` runs it"]
 fn order_is_that_of_the_table() {
     let shared = crate::support::device();
     for (place, (count, side, eta, want, known)) in TABLE.into_iter().enumerate() {

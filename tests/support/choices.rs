@@ -10,7 +10,7 @@ use motes::settings::{Key, Kind, Pair, Settings, Value};
 /// Forces of several searches in a row, which take up what those before them left: they have tests of their own, in
 /// `tests/physics/fluids` and `tests/mutants/fluids.rs`. Walls have no laws, and history: `tests/physics/matter` and
 /// `tests/mutants/matter.rs`. Pedestrians on a plan: `tests/physics/crowds` and `tests/mutants/crowds.rs`.
-const OWN: [&str; 4] = ["fluid", "contact_wall", "navigate", "social_wall"];
+const OWN: [&str; 5] = ["fluid", "contact_wall", "navigate", "social_wall", "collision_free_speed"];
 
 /// Forces that want other states than a cloud of points: atoms apart, spheres that touch, pedestrians. `tests/physics/matter`,
 /// `tests/physics/molecular`, `tests/physics/crowds`, `tests/mutants/matter.rs` and `tests/mutants/crowds.rs` have these.
@@ -29,7 +29,7 @@ const STATED: [&str; 11] = [
 ];
 
 /// Laws of atoms that have no centre at one place.
-pub const ATOMS: [&str; 6] = ["born_mayer", "lennard_jones", "wca", "morse", "yukawa", "soft"];
+pub const ATOMS: [&str; 7] = ["born_mayer", "coulomb", "lennard_jones", "wca", "morse", "yukawa", "soft"];
 
 /// The entries of the register of forces, without those that have tests of their own.
 pub fn entries() -> impl Iterator<Item = &'static Entry> {
@@ -92,6 +92,8 @@ fn values(key: &Key) -> Vec<Value> {
         (Kind::Species, Some(Value::Number(n))) => vec![Value::Text("all".into()), Value::Number(n + 1.0)],
         (Kind::Species, _) => vec![Value::Text("all".into()), Value::Number(1.0)],
         (Kind::Pairs(keys), _) => vec![Value::Pairs(table(keys))],
+        // That of a vacuum is 1.
+        _ if key.name == "permittivity" => vec![Value::Number(5.125)],
         // Longer than any link in a cloud.
         _ if key.name == "max_length" => vec![Value::Number(4.125)],
         (_, None) => vec![nudged(key.kind, &default(key.kind))],

@@ -43,6 +43,7 @@ pub const SMALLER: &[(&str, &[&str])] = &[
     ("brazil_nut", &["particles.1.size=[0.05, 0.03, 0.05]"]),
     ("sandcastle", FEW_WET),
     ("room", &["particles.0.count=60"]),
+    ("lanes", &["particles.0.count=30", "particles.1.count=30"]),
     ("drum", &["particles.0.size=[0.03, 0.03, 0.04]", "particles.1.size=[0.03, 0.03, 0.04]"]),
 ];
 

@@ -113,10 +113,12 @@ impl Hand {
         self.press(keys, Modifiers::NONE);
     }
     fn press(&mut self, keys: &[Key], modifiers: Modifiers) {
-        for pressed in [true, false] {
-            let one = |key: &Key| Event::Key { key: *key, physical_key: None, pressed, repeat: false, modifiers };
-            self.frame(keys.iter().map(one).collect());
-        }
+        [true, false].into_iter().for_each(|pressed| self.keyed(keys, modifiers, pressed));
+    }
+    /// One frame, in which keys are pressed or released.
+    pub fn keyed(&mut self, keys: &[Key], modifiers: Modifiers, pressed: bool) {
+        let one = |key: &Key| Event::Key { key: *key, physical_key: None, pressed, repeat: false, modifiers };
+        self.frame(keys.iter().map(one).collect());
     }
     fn button(&mut self, pos: Pos2, button: PointerButton, pressed: bool) {
         self.frame(vec![Event::PointerButton { pos, button, pressed, modifiers: Modifiers::NONE }]);

@@ -217,6 +217,24 @@ fn what_stands_still_is_drawn_once() {
     assert!(worst.flatten().is_some_and(|worst| worst <= 2), "{worst:?} of 255 levels");
 }
 
+/// The controls of a frame come before what it does: a window that rests too soon shows nothing of it until the next input.
+#[test]
+fn nothing_rests_before_it_is_seen() {
+    let mut hand = Hand::on("plummer", &["particles.0.count=500"]);
+    hand.key(Key::Space, Modifiers::NONE);
+    hand.frames(60);
+    assert!(hand.rests());
+    hand.keyed(&[Key::C], Modifiers::NONE, true);
+    let said = hand.message().to_owned();
+    assert!(said.contains("clipboard") && !hand.shows(&said), "{said}");
+    assert!(!hand.rests());
+    hand.frames(1);
+    assert!(hand.rests());
+    // What comes up is measured before it is shown, for which egui itself asks.
+    hand.frames(1);
+    assert!(hand.shows(&said), "{said}");
+}
+
 #[test]
 fn dragging_turns_the_picture_and_the_wheel_comes_closer() {
     let mut hand = Hand::on("plummer", &["particles.0.count=500"]);

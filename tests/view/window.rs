@@ -120,7 +120,11 @@ fn a_window_is_dragged_changed_and_edited() {
         .spawn()
         .expect("the program");
     let mut window = Window(child);
-    let id = until("no window is open", || xdotool(&["search", "--name", "motes: scene"]).filter(|id| !id.is_empty()));
+    let id = until("no window is open", || {
+        let ended = window.0.try_wait().expect("a process");
+        assert!(ended.is_none(), "the program has ended before its window was open: {ended:?}");
+        xdotool(&["search", "--name", "motes: scene"]).filter(|id| !id.is_empty())
+    });
     act(&["windowmove", &id, "0", "0"]);
     act(&["windowfocus", &id]);
     // Without a window manager the focus stays where it is put.
@@ -130,11 +134,13 @@ fn a_window_is_dragged_changed_and_edited() {
     assert!(step(&name) > 0, "it runs: {name}");
     let (again, same) = taken(folder.path());
     assert!(step(&again) == step(&name) && differ(&before, &same) == 0.0, "it stands still: {name}, {again}");
-    // The exposure has settled, and nothing is drawn any more: it was a whole processor where each frame asked for the next.
-    let before_rest = ticks(&window);
-    std::thread::sleep(Duration::from_secs(3));
-    let worked = ticks(&window) - before_rest;
-    assert!(worked < 100, "{worked} ticks of work in 3 s at rest");
+    // When the exposure has settled, which takes a software adapter a while, nothing is drawn any more: it was a whole processor
+    // where each frame asked for the next, and a good part of one where each look at the files did.
+    until("it works on at rest", || {
+        let begun = ticks(&window);
+        std::thread::sleep(Duration::from_secs(3));
+        (ticks(&window) - begun < 30).then_some(())
+    });
     act(&["key", "c"]);
     let command = until("no command is on the clipboard", || {
         let run = Command::new("xclip").args(["-o", "-selection", "clipboard"]).output().expect("xclip");

@@ -3,6 +3,8 @@
 use std::path::PathBuf;
 
 use clap::Args as ClapArgs;
+use clap::builder::{PossibleValuesParser, TypedValueParser as _};
+use motes::evacuation::Model;
 use motes::formats::floor_plan::Scale;
 
 use crate::cli::args::{DeviceArgs, ShowArgs, StopArgs, positive};
@@ -23,6 +25,9 @@ pub struct CrowdsArgs {
     /// The number of pedestrians
     #[arg(long, value_name = "N", default_value_t = 300, value_parser = clap::value_parser!(u32).range(1..=100_000))]
     pub people: u32,
+    /// How they move: by forces, or by velocities that keep their distances
+    #[arg(long, default_value = Model::default().name(), value_parser = model())]
+    pub model: Model,
     /// The seed of their places, radii and desired speeds
     #[arg(long, value_name = "N", default_value_t = 1)]
     pub seed: u64,
@@ -53,6 +58,12 @@ pub struct CrowdsArgs {
     pub stop: StopArgs,
     #[command(flatten)]
     pub show: ShowArgs,
+}
+
+/// A model by its name.
+fn model() -> impl clap::builder::TypedValueParser<Value = Model> {
+    let by_name = |name: String| Model::ALL.into_iter().find(|model| model.name() == name).unwrap_or_default();
+    PossibleValuesParser::new(Model::ALL.map(Model::name)).map(by_name)
 }
 
 /// A point.

@@ -49,8 +49,14 @@ pub async fn crowds(args: &CrowdsArgs) -> Result<(), Failure> {
     let output = args.output.clone().unwrap_or_else(|| PathBuf::from("out").join(&name));
     let folder = Folder::open(&output, args.overwrite)?;
     let within = args.start.iter().map(|[a, b, c, d]| [DVec2::new(*a, *b), DVec2::new(*c, *d)]).collect();
-    let crowd =
-        Crowd { people: args.people, seed: args.seed, speed: args.speed, within, outside: read.landings.clone() };
+    let crowd = Crowd {
+        people: args.people,
+        model: args.model,
+        seed: args.seed,
+        speed: args.speed,
+        within,
+        outside: read.landings.clone(),
+    };
     let about = format!("{} pedestrians leave {name}, by `motes crowds` (seed {}).", args.people, args.seed);
     let start = evacuation::scene(&read.plan, (&read.wkt, &about), &crowd, args.limit)?;
     let source = Source::Text { name: "scene.toml".to_owned(), text: start.text.clone(), folder: output.clone() };

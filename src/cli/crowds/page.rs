@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use motes::evacuation::{Bottleneck, HELD_UP, SHARE};
+use motes::evacuation::{Bottleneck, HELD_UP, Model, SHARE};
 
 use super::Evacuation;
 
@@ -142,17 +142,25 @@ pub fn text(done: &Evacuation<'_>) -> String {
         mean(lost)
     );
     let args = done.args;
+    let fluctuating = match args.model {
+        Model::SocialForce => ", with fluctuations of velocities of 0.2 m/s (`wander`)",
+        Model::CollisionFreeSpeed => "",
+    };
     let _ = write!(
         page,
-        "\n## How it was measured\n\nPedestrians follow the social force model of Helbing, Farkas & Vicsek (2000) to the nearest exit round walls, with desired speeds of {} m/s in the mean \
-         (normal, deviation 0.19 of that) and radii of 0.25 to 0.35 m, with fluctuations of velocities of 0.2 m/s (`wander`), from places at random (seed {}), in steps of {} s on {}. {} times a pedestrian was put back in front of a wall.\n\n\
+        "\n## How it was measured\n\nPedestrians follow {} to the nearest exit round walls, with desired speeds of {} m/s in the mean \
+         (normal, deviation 0.19 of that) and radii of {} to {} m{}, from places at random (seed {}), in steps of {} s on {}. {} times a pedestrian was put back in front of a wall.\n\n\
          Places are sampled every {} s. Between two samples a pedestrian with the desired speed v₀ loses Δt − ΔT / v₀, with ΔT the distance to the exit that it gained. The map adds this up \
          in squares of {:.2} m, half way between the samples; it may be negative where a pedestrian is pushed ahead. The sum over the map, {:.1} s, is that of all pedestrians, {lost:.1} s, of time inside \
          less distance / desired speed.\n\n\
          A square is jammed where more than half of the time in it and in those around it is lost. From each place of a jam the way is followed to the jam's end; the narrowest clear width between walls from 1.5 m before it to 1 m \
          behind it is the bottleneck, if the way before it is wider by half somewhere in the jam, and the time lost from there back through the jam is counted for it. Named are those before which {:.0} % of all time inside is lost, or more. Held up: {HELD_UP} s lost there, \
          or more. Flows are those of the middle eight tenths that pass. `trajectories.csv` has the samples, `report.json` all numbers; `motes run scene.toml` makes the same run.\n",
+        args.model.about(),
         args.speed,
+        args.model.radii()[0],
+        args.model.radii()[1],
+        fluctuating,
         args.seed,
         done.dt,
         done.device,

@@ -37,7 +37,7 @@ pub fn value(done: &Evacuation<'_>) -> Value {
     let map = &report.map;
     let cells = |values: &[f64]| values.iter().copied().map(number).collect::<Vec<_>>();
     json!({
-        "plan": done.name, "people": done.args.people, "seed": done.args.seed, "speed": done.args.speed, "dt": done.dt,
+        "plan": done.name, "people": done.args.people, "model": done.args.model.name(), "seed": done.args.seed, "speed": done.args.speed, "dt": done.dt,
         "remarks": done.remarks, "sample": done.sample, "device": done.device, "steps": done.driven.steps, "stopped": done.driven.stopped, "stuck": done.driven.stuck,
         "inside": report.inside(), "wall_corrections": done.driven.corrections,
         "evacuation": { "last": some(report.time_of(1.0)), "most": some(report.time_of(0.95)), "median": some(report.time_of(0.5)) },

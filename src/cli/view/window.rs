@@ -66,10 +66,18 @@ impl ApplicationHandler for App {
             Err(failure) => self.end(events, Err(failure)),
         }
     }
-    fn new_events(&mut self, _: &ActiveEventLoop, cause: StartCause) {
-        if let (StartCause::ResumeTimeReached { .. }, Some(shell)) = (cause, &self.shell) {
-            shell.window.request_redraw();
+    fn new_events(&mut self, events: &ActiveEventLoop, cause: StartCause) {
+        let (StartCause::ResumeTimeReached { .. }, Some(shell)) = (cause, &mut self.shell) else { return };
+        let done = shell.look(&self.args);
+        if done.is_err() {
+            let saved = shell.close();
+            self.end(events, done.and(saved));
         }
+    }
+    fn about_to_wait(&mut self, events: &ActiveEventLoop) {
+        let Some(shell) = &self.shell else { return };
+        let look = Instant::now() + LOOK;
+        events.set_control_flow(ControlFlow::WaitUntil(shell.again.map_or(look, |again| again.min(look))));
     }
     fn window_event(&mut self, events: &ActiveEventLoop, _: WindowId, event: WindowEvent) {
         let Some(shell) = &mut self.shell else { return };
@@ -95,9 +103,8 @@ impl ApplicationHandler for App {
         if done.is_err() || enough {
             // A film is not lost with the device.
             let saved = shell.close();
-            return self.end(events, done.and(saved));
+            self.end(events, done.and(saved));
         }
-        events.set_control_flow(ControlFlow::WaitUntil(Instant::now() + LOOK));
     }
 }
 
@@ -116,6 +123,8 @@ struct Shell {
     /// What was to be opened last in its place and has faults: it is tried again when its files change, unless those of the present scene do.
     faulty: Option<(Origin, Files)>,
     frames: u64,
+    /// When the controls are to be drawn again without input: a cursor blinks, a tip appears.
+    again: Option<Instant>,
 }
 
 impl Shell {
@@ -137,7 +146,20 @@ impl Shell {
         let contact = context.load_texture("scenes", contact()?, TextureOptions::LINEAR);
         let view = block_on(watched(loaded, &found, &contact, origin.command(args)))?;
         window.request_redraw();
-        Ok(Self { window, surface, found, context, input, view, contact, files, origin, faulty: None, frames: 0 })
+        Ok(Self {
+            window,
+            surface,
+            found,
+            context,
+            input,
+            view,
+            contact,
+            files,
+            origin,
+            faulty: None,
+            frames: 0,
+            again: None,
+        })
     }
     /// Opens a scene that was dropped on the window, or the present one with another file.
     fn drop(&mut self, args: &ViewArgs, path: &Path) {
@@ -202,18 +224,28 @@ impl Shell {
         let saved = save_all(&mut self.view);
         saved.and(ended).map_err(Failure::from)
     }
-    /// One frame: input, controls, steps, picture.
-    fn frame(&mut self, args: &ViewArgs) -> Result<(), Failure> {
+    /// Reads a scene again when its files have changed, and asks for the frame that controls wait for. At rest this is all that is done.
+    fn look(&mut self, args: &ViewArgs) -> Result<(), Failure> {
         self.found.faults.check()?;
+        if self.again.take_if(|again| *again <= Instant::now()).is_some() {
+            self.window.request_redraw();
+        }
         if self.files.changed() {
             self.open_scene(args, Ok(self.origin.clone()));
         } else if let Some((origin, _)) = self.faulty.take_if(|(_, files)| files.changed()) {
             self.open_scene(args, Ok(origin));
         }
+        Ok(())
+    }
+    /// One frame: input, controls, steps, picture.
+    fn frame(&mut self, args: &ViewArgs) -> Result<(), Failure> {
+        self.look(args)?;
         let input = self.input.take_egui_input(&self.window);
         let mut output = self.context.run_ui(input, |ui| self.view.controls(ui));
         self.input.handle_platform_output(&self.window, std::mem::take(&mut output.platform_output));
-        let soon = output.viewport_output.values().any(|viewport| viewport.repaint_delay < LOOK);
+        let delay = output.viewport_output.values().map(|viewport| viewport.repaint_delay).min();
+        // Where nothing is to be drawn again, the delay is longer than any time.
+        self.again = delay.and_then(|delay| Instant::now().checked_add(delay));
         let controls = Controls::of(&self.context, output);
         block_on(self.view.advance())?;
         let files = save_all(&mut self.view);
@@ -229,7 +261,8 @@ impl Shell {
         }
         self.surface.paint(&controls)?;
         self.frames += 1;
-        if !self.view.rests() || soon || self.frames < 3 {
+        // A number of frames that is asked for is drawn at rest as well.
+        if !self.view.rests() || self.frames < 3 || args.frames.is_some() {
             self.window.request_redraw();
         }
         Ok(())

@@ -3,7 +3,7 @@
 use super::tokens::{Token, tokens};
 
 /// The word of `over` with which a file can be called that has these functions: `links` or `joints` where its `gather` takes such a thing, `pairs` where it has
-/// a `gather` or an `energy`, and `each` otherwise.
+/// a `gather`, an `energy` or an `even_energy`, and `each` otherwise.
 #[must_use]
 pub fn over(text: &str) -> &'static str {
     let all = tokens(text);
@@ -12,7 +12,7 @@ pub fn over(text: &str) -> &'static str {
         let rest = &all[at..];
         Some(&rest[..rest.iter().position(|token| token.text == "{").unwrap_or(rest.len())])
     };
-    let Some(gather) = head("gather").or_else(|| head("energy")) else { return "each" };
+    let Some(gather) = head("gather").or_else(|| head("energy")).or_else(|| head("even_energy")) else { return "each" };
     let takes = |kind: &str| gather.iter().any(|token| token.text == kind);
     if takes("Link") {
         "links"
@@ -34,6 +34,7 @@ mod tests {
             ("fn update(me: Particle) {}", "each"),
             ("fn gather\n(a: Particle, b: Particle, r: vec3f, s: ptr<function, Sum>) {}", "pairs"),
             ("fn energy(a: Particle, b: Particle, d: f32, i: f32) -> Energy { return Energy(0, 0); }", "pairs"),
+            ("fn even_energy(a: Particle, b: Particle, s: f32, i: f32) -> Energy { return Energy(0, 0); }", "pairs"),
             ("fn gather(a: Particle, b: Particle, r: vec3f, l: Link, s: ptr<function, Sum>) {}", "links"),
             ("fn gather(a: Particle, /* Link */ c: Corner, s: ptr<function, Sum>) {}", "joints"),
             ("", "each"),

@@ -22,6 +22,12 @@ const HISTORY_BEFORE: &str = "history_before";
 const EACH: u32 = 3;
 /// Neighbours that an invocation puts in their places.
 const SORTED: u32 = 16;
+/// Candidates of one search of a subgroup for a list with room for so many, at most; see `shaders/visit/near_rows.wgsl`. Eight candidates take
+/// a turn of the search and one of `shaders/neighbors/list_eight.wgsl`, which has one more for each neighbour that a lane stores, and never more than
+/// eight: of both searches fewer than 65 535 for each room.
+fn most(room: u32) -> u32 {
+    120_000_u32.saturating_sub(16 * room.min(7_500)).max(28_000)
+}
 /// The approximate number of checks for each rebuild.
 const SELDOM: u64 = 8;
 
@@ -106,11 +112,15 @@ fn search(list: &List, problem: &Problem) -> Result<Vec<Pass>, Error> {
     };
     let mut sources = near::ground();
     sources.push(list.grid.present(problem));
-    sources.extend(near::search(&list.grid, &problem.machine, candidate));
+    let eight = crate::shader!("neighbors/list_eight.wgsl");
+    sources.extend(near::search_by(&list.grid, &problem.machine, candidate, eight));
     sources.extend([crate::shader!("own/no_turns.wgsl"), crate::shader!("neighbors/list_search.wgsl")]);
     let shader = Shader::join(&sources)?;
     let mut constants = problem.constants(&shader);
     constants.extend([("REACH", list.shape.reach()), (ROOM, f64::from(list.shape.capacity))]);
+    if near::broadcasts(&problem.machine) {
+        constants.push(("MOST", f64::from(most(list.shape.capacity))));
+    }
     near::passes(&list.grid, &Pass { constants, ..Pass::new(shader, 0) }, problem.capacity, problem)
 }
 

@@ -12,9 +12,11 @@ const SCENE: &str =
 [[particles]]\nshape = \"box\"\ncount = 60\nseed = 5\nsize = [2, 2, 2]\n
 [[force]]\nkind = \"gravity\"\nsoftening = 0.1\n
 [[measure]]\nkind = \"thermo\"\nevery = 3\n
+[[measure]]\nkind = \"heat_capacity\"\nevery = 3\n
 [[measure]]\nkind = \"pressure\"\nevery = 6\n
 [[measure]]\nkind = \"rdf\"\nrange = 0.8\nbins = 4\n
 [[measure]]\nkind = \"rdf\"\nrange = 0.5\nbins = 2\nevery = \"0.05 time\"\n
+[[measure]]\nkind = \"structure_factor\"\nlargest = 7\nbins = 3\nvectors = 4\nevery = 4\nafter = 0.1\n
 [[column]]\nname = \"unwrapped\"\nkind = \"vector\"\nrate = \"velocity\"\ninitial = [0, 0, 0]\n
 [[measure]]\nkind = \"diffusion\"\nevery = 4\n
 [[measure]]\nkind = \"probe\"\nstart = [0, 0, 0]\nrange = 0.5\n
@@ -26,7 +28,7 @@ fn tables_have_their_rows_and_go_on_where_a_run_was_stopped() {
     let (code, words) = place.run("box.toml", "out", &[]);
     assert_eq!(code, 0, "{words}");
     assert!(
-        words.contains("energy.csv, thermo.csv, pressure.csv, rdf.csv, rdf_2.csv, diffusion.csv, probe.csv"),
+        words.contains("energy.csv, thermo.csv, heat_capacity.csv, pressure.csv, rdf.csv, rdf_2.csv, structure_factor.csv, diffusion.csv, probe.csv"),
         "{words}"
     );
     assert!(words.contains("temperature "), "{words}");
@@ -65,6 +67,12 @@ fn a_measure_that_a_run_cannot_take_is_refused_before_it_begins() {
     for (from, to, why) in [
         ("range = 0.8", "range = 1.8", "more than half a period of the box"),
         ("boundary = \"periodic\"", "boundary = \"open\"", "not periodic along all axes"),
+        ("largest = 7", "largest = 3", "set it to 3.14159"),
+        (
+            "kind = \"gravity\"\nsoftening = 0.1",
+            "kind = \"berendsen\"\ntemperature = 1",
+            "choose csvr, nose_hoover, langevin or andersen",
+        ),
         ("kind = \"probe\"", "kind = \"fluid\"", "unknown key `start`"),
         ("kind = \"thermo\"", "kind = \"termo\"", "did you mean \"thermo\"?"),
         ("kind = \"thermo\"", "kind = \"energy\"", "remove `every`"),

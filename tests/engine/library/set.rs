@@ -168,6 +168,19 @@ fn what_changes_the_columns_is_refused() {
     }
 }
 
+/// How an energy ends is compiled into its kernels; its depth is not.
+#[test]
+fn what_is_compiled_is_refused() {
+    let shared = device();
+    let atoms = vec![force("lennard_jones", &[("range", 2.5.into()), ("sigma", 0.1.into())])];
+    let mut simulation = on_gpu(&shared, &setup(free(60), atoms));
+    for to in ["xplor", "force_shift"] {
+        let said = simulation.set("lennard_jones", "truncation", to).expect_err(to).to_string();
+        assert!(said.contains("truncation") || said.contains("snapshot()"), "{said}");
+    }
+    simulation.set("lennard_jones", "epsilon", 2.0).expect("a number of its table");
+}
+
 #[test]
 fn a_motion_changes() {
     let shared = device();

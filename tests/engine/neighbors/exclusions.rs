@@ -221,7 +221,7 @@ fn the_key_reaches_the_laws() {
         force(name, &settings)
     };
     let names: Vec<_> = motes::forces::entries().filter(|e| e.keys.iter().any(|key| key.name == "exclude")).collect();
-    assert!(names.len() == 5, "{}", names.len());
+    assert!(names.len() == 6, "{}", names.len());
     for entry in names {
         assert_eq!(with(entry.name, 2.0, "list").laws()[0].exclude, 2, "{}", entry.name);
         for (bonds, over) in [(9.0, "list"), (1.0, "near"), (3.0, "within")] {

@@ -62,6 +62,41 @@ fn laws_have_tables_of_their_own() {
     assert!(Simulation::on(Cpu::new(2).expect("a backend"), &scene(&[("one.wgsl", 1.0)])).is_err());
 }
 
+/// The same energy A / r⁶ by the distance and by its square: U′ = −6 A / r⁷, at r = 1 and elsewhere, with its virial.
+#[test]
+fn energies_of_even_powers_need_no_root() {
+    const BY_SQUARE: &str = "
+fn even_energy(me: Particle, you: Particle, square: f32, inverse: f32) -> Energy {
+    let value = 2.0 * inverse * inverse * inverse;
+    return Energy(value, -6.0 * value * inverse);
+}";
+    const BY_DISTANCE: &str = "
+fn energy(me: Particle, you: Particle, distance: f32, inverse: f32) -> Energy {
+    let cube = inverse * inverse * inverse;
+    return Energy(2.0 * cube * cube, -12.0 * cube * cube * inverse);
+}";
+    for distance in [0.7, 1.0, 1.6] {
+        let values = [BY_SQUARE, BY_DISTANCE].map(|text| {
+            let mut setup = scene(&[]);
+            setup.state.position_mut()[1].x = distance;
+            setup.forces = vec![Box::new(Custom::new("own", "own.wgsl", text, Over::Within { range: 2.0 }))];
+            let shared = device();
+            let mut simulation =
+                Simulation::new(&shared.found.device, &shared.found.queue, &setup).expect("a simulation");
+            simulation.step(0).expect("a start");
+            let pull = pollster::block_on(simulation.read(ACCELERATION)).expect("accelerations");
+            let virial = pollster::block_on(simulation.virial()).expect("a virial");
+            [f64::from(pull[0].x), f64::from(pull[0].w), virial[0]]
+        });
+        let slope = 12.0 * distance.powi(-7);
+        for [pull, energy, virial] in values {
+            assert!((pull / -slope - 1.0).abs() < 1e-6, "{distance}: {pull}");
+            assert!((energy / distance.powi(-6) - 1.0).abs() < 1e-6, "{distance}: {energy}");
+            assert!((virial / (slope * distance) - 1.0).abs() < 1e-6, "{distance}: {virial}");
+        }
+    }
+}
+
 /// A law that pulls along x by the number in its table.
 const DATA: &str = "
 @group(3) @binding(1) var<storage, read> data: array<f32>;

@@ -190,7 +190,7 @@ fn what_is_tied_is_never_silent_either() {
     }
     let spring = |i| Link { ends: [i, i + 1], rest: 1.0, stiffness: 1.0, damping: 0.0, rope: false };
     let springs = vec![spring(0), spring(1)];
-    let joints = vec![Joint { ids: [0, 1, 2], stiffness: 1.0 }];
+    let joints = vec![Joint { ids: [0, 1, 2], stiffness: 1.0, rest: 0.0 }];
     particles.links = Links { springs, joints, triangles: vec![[0, 1, 2]], ..Links::default() };
     for (over, arguments) in [(Over::Links, LINK), (Over::Joints, CORNER), (Over::Triangles, CORNER)] {
         for (n, long) in [(20_000, false), (100_000, true)] {

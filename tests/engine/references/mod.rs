@@ -5,9 +5,9 @@ mod two_words;
 
 use std::fmt::Display;
 
-use crate::support::choices;
 use crate::support::machines::{self, alone, gpu};
 use crate::support::states::{force, integrator};
+use crate::support::{agrees, choices};
 use motes::forces::Stage;
 use motes::gpu::Gpu;
 use motes::integrators::{INTEGRATORS, Precise, Step};
@@ -47,7 +47,7 @@ fn verdicts(gpu: &mut Gpu, plan: &Plan, count: usize, of: &impl Display) -> Vec<
 /// All good, and each kernel changes something; `idle` says which ones may not.
 fn judge(verdicts: &[Verdict], count: usize, of: &impl Display, idle: impl Fn(&Verdict) -> bool) {
     for verdict in verdicts {
-        assert!(verdict.good(), "{of}, {count} particles: {verdict:?}");
+        assert!(agrees(verdict), "{of}, {count} particles: {verdict:?}");
         assert!(verdict.changed || idle(verdict), "{of}, {count} particles: changes nothing: {verdict:?}");
     }
 }

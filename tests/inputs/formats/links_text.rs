@@ -4,13 +4,14 @@ use glam::DVec3;
 use motes::error::Error;
 use motes::formats::Input;
 use motes::formats::links::{self, Tie, Usual};
-use motes::links::{Link, Links, Rod};
+use motes::links::{Dihedral, Joint, Link, Links, Rod};
 use proptest::prelude::*;
 
 use crate::formats::{folder, put};
 
 /// Other values than those that tests write.
-const USUAL: Usual = Usual { tie: Tie::Rope, rest: 0.5, stiffness: 30.0, damping: 0.7 };
+const USUAL: Usual =
+    Usual { tie: Tie::Rope, rest: 0.5, stiffness: 30.0, damping: 0.7, angle: 120.0, multiplicity: 2, phase: 30.0 };
 
 /// Nine in a row, 2 apart.
 fn places() -> Vec<DVec3> {
@@ -76,9 +77,9 @@ fn all_that_is_wrong_at_once() {
          2,3,,,,,spring\n3,2,,,,,rope\n0,,4\n1,2,1e999,,five,-0.5\n4,5,,,,,,,6\n",
     );
     let expected = [
-        "unknown column `wight`; known are a, b, rest, stiffness, damping, tie",
+        "unknown column `wight`; known are a, b, c, d, rest, stiffness, damping, tie, angle, multiplicity, phase",
         "the column `rest` is there twice: remove one of them",
-        "line 3, column tie: `string` is none of spring, rope, rod",
+        "line 3, column tie: `string` is none of spring, rope, rod, joint, dihedral",
         "line 5, column a: there is no particle 9; there are 9, from 0 on",
         "line 6, column a: `-1` is not the id of a particle",
         "line 6, column b: `x` is not the id of a particle",
@@ -117,7 +118,11 @@ fn headers_and_files_that_are_none() {
     assert_eq!(faults("")[0], "is empty; its first line must name the columns, such as a,b,rest,stiffness,damping");
     assert_eq!(faults("# nothing else\n").len(), 1);
     let missing = |column| format!("the column `{column}` is missing; the first line must name a and b");
-    let unknown = |column| format!("unknown column `{column}`; known are a, b, rest, stiffness, damping, tie");
+    let unknown = |column| {
+        format!(
+            "unknown column `{column}`; known are a, b, c, d, rest, stiffness, damping, tie, angle, multiplicity, phase"
+        )
+    };
     assert_eq!(faults("rest\n1\n"), [missing("a"), missing("b")]);
     assert_eq!(faults("0,1\n1,2\n"), [unknown("0"), unknown("1"), missing("a"), missing("b")]);
     assert_eq!(faults(b"a,b\n0,\xff\xfe\n"), ["line 2, column b: `\u{fffd}\u{fffd}` is not the id of a particle"]);
@@ -176,4 +181,42 @@ proptest! {
         bytes[twice.index(length)] ^= 1 << (byte % 8);
         let _ = read(bytes);
     }
+}
+
+/// Joints and dihedrals: columns that only they need, in any order, and numbers that read back, angles to rounding.
+#[test]
+fn joints_and_dihedrals() {
+    let text = "a,b,c,d,tie,angle,multiplicity,phase,stiffness\n0,1,2,,joint,109.5,,,7\n2,1,0,3,dihedral,,3,-90,-2.5\n4,3,2,,joint,,,,\n5,6,,,,,,,\n0,1,2,3,dihedral,,,,\n";
+    let links = read(text).expect("links");
+    let joint = |ids, stiffness, angle: f64| Joint { ids, stiffness, rest: (180.0 - angle).to_radians() };
+    assert_eq!(links.joints, [joint([0, 1, 2], 7.0, 109.5), joint([4, 3, 2], 30.0, 120.0)]);
+    let of =
+        |ids, stiffness, multiplicity, phase: f64| Dihedral { ids, stiffness, multiplicity, phase: phase.to_radians() };
+    assert_eq!(links.dihedrals, [of([2, 1, 0, 3], -2.5, 3, -90.0), of([0, 1, 2, 3], 30.0, 2, 30.0)]);
+    assert_eq!(links.springs.len(), 1);
+    let again = read(written(&links)).expect("links");
+    assert_eq!((&again.springs, again.joints.len(), again.dihedrals.len()), (&links.springs, 2, 2));
+    for (a, b) in again.joints.iter().zip(&links.joints) {
+        assert!(Joint { rest: b.rest, ..*a } == *b && (a.rest - b.rest).abs() < 1e-15);
+    }
+    for (a, b) in again.dihedrals.iter().zip(&links.dihedrals) {
+        assert!(Dihedral { phase: b.phase, ..*a } == *b && (a.phase - b.phase).abs() < 1e-15);
+    }
+    let rods = Links { joints: links.joints.clone(), ..some() };
+    assert_eq!(read(written(&rods)).expect("links").rods, some().rods);
+    let wrong = faults(
+        "a,b,c,d,tie,angle,multiplicity,phase\n0,1,2,3,joint\n0,1,,,joint\n0,1,2,0,dihedral\n0,1,2,3,dihedral,,1.5\n0,1,2,3,dihedral,,13\n0,1,2,,joint,181\n0,1,2,3,dihedral,,1,361\n0,1,2,,spring\n0,1,2,,joint,120,1,\n",
+    );
+    let expected = [
+        "line 2, column d: `3` is too many: a joint has 3 particles, and this cell stays empty",
+        "line 3, column c: the cell is missing",
+        "line 4: particle 0 is linked to itself",
+        "line 5, column multiplicity: 1.5 is not a whole number from 1 to 12",
+        "line 6, column multiplicity: 13 is not a whole number from 1 to 12",
+        "line 7: the joint of 0, 1, 2 has an angle of 181° at rest, and it is from 0° to 180° (straight)",
+        "line 8: the dihedral of 0, 1, 2, 3 has the phase 361°, and phases are from −360° to 360°: leave out whole turns",
+        "line 9, column c: `2` is too many: a spring has 2 particles, and this cell stays empty",
+        "line 10, column multiplicity: `1` has no effect on a joint: leave it empty",
+    ];
+    assert_eq!(wrong, expected);
 }

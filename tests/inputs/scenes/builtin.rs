@@ -46,6 +46,7 @@ fn every_one_loads_and_says_what_to_see() {
         "brazil_nut",
         "sandcastle",
         "room",
+        "lanes",
     ];
     assert_eq!(names, [&bodies[..], &tied, &fluids, &others].concat());
     for builtin in SCENES {

@@ -256,7 +256,7 @@ error: unknown visit "all_of_it"
    |
  8 | over = "all_of_it"
    |        ^^^^^^^^^^^
-   = known: `each`, `pairs`, `within`, `near`, `list`, `nearest`, `tree`, `auto`, `links`, `joints`, `triangles`
+   = known: `each`, `pairs`, `within`, `near`, `list`, `nearest`, `tree`, `auto`, `links`, `joints`, `dihedrals`, `triangles`
 
 error: `strength` must be a number, three numbers, or true or false, not the text "2"
   --> scene.toml:9:23

@@ -135,7 +135,7 @@ bodies = [{ position = [0, 0, 0], speed = [1, 0, 0] }]
    |
  5 | bodies = [{ position = [0, 0, 0], speed = [1, 0, 0] }]
    |                                   ^^^^^ it belongs in [[particles]]
-   = known here: `position`, `velocity`, `mass`, `size`, `fixed`
+   = known here: `position`, `velocity`, `mass`, `size`, `species`, `fixed`
 
 a.toml: 1 error",
     );

@@ -65,7 +65,7 @@ scene.toml: 1 error"#,
     assert_reports(
         "a,rest,wight\n0,1,2\n",
         r#"error: /net.csv: 
-  unknown column `wight`; known are a, b, rest, stiffness, damping, tie
+  unknown column `wight`; known are a, b, c, d, rest, stiffness, damping, tie, angle, multiplicity, phase
   the column `b` is missing; the first line must name a and b
   --> scene.toml:10:8
    |

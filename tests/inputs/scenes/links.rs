@@ -136,7 +136,7 @@ fn a_spring_and_a_rod_may_share_their_ends() {
 fn links_of_nothing_and_of_both() {
     assert_faults(
         "stiffness = 3\n",
-        "error: [[links]] needs one of `file`, `pairs`
+        "error: [[links]] needs one of `file`, `pairs`, `joints`, `dihedrals`
   --> a.toml:9:1
    |
  9 | [[links]]
@@ -165,7 +165,7 @@ fn values_that_make_no_sense() {
    |
 11 | tie = "rood"
    |       ^^^^^^ did you mean "rod"?
-   = known: `spring`, `rope`, `rod`
+   = known: `spring`, `rope`, `rod`, `joint`, `dihedral`
 
 error: `rest` must be a number, zero or above, not -1
   --> a.toml:12:8
@@ -184,7 +184,7 @@ error: unknown key `stifness` in [[links]]
    |
 14 | stifness = 4
    | ^^^^^^^^ did you mean `stiffness`?
-   = known here: `file`, `pairs`, `tie`, `rest`, `stiffness`, `damping`
+   = known here: `file`, `pairs`, `joints`, `dihedrals`, `tie`, `rest`, `stiffness`, `damping`, `angle`, `multiplicity`, `phase`, `copies`, `stride`
 
 a.toml: 4 errors"#,
     );

@@ -184,7 +184,7 @@ wgsl = "swirl.wgsl"
   --> a.toml:6:1
    |
  6 | [[force]]
-   | ^^^^^^^^^ add `over`, one of `each`, `pairs`, `within`, `near`, `list`, `nearest`, `tree`, `auto`, `links`, `joints`, `triangles`: which pairs are evaluated
+   | ^^^^^^^^^ add `over`, one of `each`, `pairs`, `within`, `near`, `list`, `nearest`, `tree`, `auto`, `links`, `joints`, `dihedrals`, `triangles`: which pairs are evaluated
 
 error: there is no file swirl.wgsl
   --> a.toml:7:8

@@ -11,6 +11,7 @@ mod keys;
 mod link_files;
 mod links;
 mod missing;
+mod molecules;
 mod numbers;
 mod overrides;
 mod particles;

@@ -115,11 +115,10 @@ solves = 8
 
 [[particles]]
 bodies = [
-  { position = [0.0, 0.0, 0.0], velocity = [0.0, 0.0, 0.0], mass = 1.0, size = 0.0 },
+  { position = [0.0, 0.0, 0.0], velocity = [0.0, 0.0, 0.0], mass = 1.0, size = 0.0, species = 0 },
 ]
 center = [0.0, 0.0, 0.0]
 velocity = [0.0, 0.0, 0.0]
-species = 0
 
 [output]
 every = 1

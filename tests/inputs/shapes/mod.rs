@@ -1,6 +1,7 @@
 //! The generators: same bits forever, the totals they promise, and the models' published numbers within sampling error.
 
 mod clustered;
+mod copies;
 mod disk;
 mod melts;
 mod models;
@@ -42,7 +43,7 @@ fn make(name: &str, values: &[(&'static str, f64)]) -> State {
 
 /// All numbers of links and fixed particles.
 fn ties(particles: &State) -> impl Iterator<Item = f64> {
-    let Links { springs, rods, joints, triangles } = &particles.links;
+    let Links { springs, rods, joints, dihedrals: _, triangles } = &particles.links;
     let ids = |ids: &[u32]| ids.iter().map(|id| f64::from(*id)).collect::<Vec<_>>();
     let springs = springs
         .iter()

@@ -9,6 +9,7 @@ mod flows;
 mod forces;
 mod places;
 mod plans;
+mod spacing;
 mod walls;
 
 use glam::DVec3;

@@ -169,7 +169,12 @@ fn plans_that_make_no_sense_are_refused_with_the_place() {
     assert!(FloorPlan::new(&[hole], vec![], 0.1).expect_err("outside").contains("outside of the outline"));
     let on = |at: [f64; 2]| walker(plan(&SQUARE, vec![], 0.5).expect("a plan"), DVec2::from_array(at));
     let why = on([12.0, 3.0]).check().expect_err("off the floor").to_string();
-    assert!(why.contains("1 particles are in a wall or off the floor") && why.contains("particle 0 at 12 3"), "{why}");
+    assert!(
+        why.contains("1 particles are on or in a wall, or off the floor") && why.contains("particle 0 at 12 3"),
+        "{why}"
+    );
+    let why = on([10.0, 3.0]).check().expect_err("on a wall").to_string();
+    assert!(why.contains("particle 0 at 10 3"), "{why}");
     let none = pollster::block_on(motes::diagnose::diagnose(&on([2.0, 3.0]))).expect_err("no exit").to_string();
     assert!(none.contains("has no exit"), "{none}");
 }

@@ -6,7 +6,7 @@ use std::f64::consts::PI;
 use glam::{DVec3, DVec4};
 
 /// The complementary error function, to 1e-15: by its series, and far out by its continued fraction.
-fn erfc(x: f64) -> f64 {
+pub fn erfc(x: f64) -> f64 {
     let gauss = (-x * x).exp() * 2.0 / PI.sqrt();
     if x < 2.5 {
         let (mut term, mut sum, mut n) = (x, x, 0.0);

@@ -1,7 +1,7 @@
 //! Gravity of all images: against published numbers, against the exact sum, and by what a periodic world must do.
 
 mod accurate;
-mod exact;
+pub mod exact;
 mod field;
 mod refusals;
 mod remarks;

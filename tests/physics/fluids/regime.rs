@@ -88,6 +88,7 @@ fn error(drive: Drive, reynolds: f64, across: i32, seed: u64, fluid: impl Fn(f64
 /// has at Re = 100, with 10, 20 and 40 spacings, 0.027, 0.005 and 0.002 where a wall drags, and 0.035 and 0.047 with 10 and 20 spacings by the
 /// general defaults, which do not converge.
 #[test]
+#[ignore = "minutes on a software adapter: `tests/run --test physics --test commands -- --include-ignored` runs it"]
 fn channels_converge_at_low_and_high_reynolds_numbers() {
     for (drive, reynolds, seed) in [
         (Drive::Wall, 1.0, 1),

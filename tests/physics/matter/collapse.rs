@@ -46,6 +46,7 @@ fn run_out(more: &[(usize, &str, f64)]) -> f64 {
 /// In a channel a column of height H and width L runs out by 1.2 (Lube et al. 2005) to 1.8 H (Lajeunesse et al. 2005, glass) where H / L is below 2:
 /// here within 10 % of that, of which one grain is 8 %. Negative control: grains that hardly roll fall short of it, by 0.9 H.
 #[test]
+#[ignore = "minutes on a software adapter: `tests/run --test physics --test commands -- --include-ignored` runs it"]
 fn columns_run_out_as_measured() {
     let rolling = |x: f64| run_out(&[(0, "rolling_friction", x), (1, "rolling_friction", x)]);
     let [measured, stiff] = [0.1, 0.5].map(rolling);
@@ -75,6 +76,7 @@ fn slope(state: &State) -> f64 {
 /// Grains in a drum that turns slowly flow over a straight slope at an angle of 20 to 45 degrees, in avalanches that change it by some degrees
 /// (Rajchenbach 1990); it is lower by 8 degrees at least where they hardly rub.
 #[test]
+#[ignore = "minutes on a software adapter: `tests/run --test physics --test commands -- --include-ignored` runs it"]
 fn drums_have_a_dynamic_angle_of_repose() {
     let angle = |more: &[&str]| {
         let more: Vec<String> = more.iter().map(|set| (*set).to_owned()).collect();
@@ -113,6 +115,7 @@ fn tower(more: &[&str]) -> [f64; 2] {
 /// Wet grains stand as their mould has shaped them, because each bridge pulls with twelve times the weight of a grain; the same grains run out when
 /// they are dry.
 #[test]
+#[ignore = "minutes on a software adapter: `tests/run --test physics --test commands -- --include-ignored` runs it"]
 fn a_sandcastle_stands_while_it_is_wet() {
     let wet = tower(&[]);
     let dry = tower(&["force.0.surface_tension=0", "force.1.surface_tension=0"]);

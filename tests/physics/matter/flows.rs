@@ -89,6 +89,7 @@ fn height(rolling: f64) -> f64 {
 
 /// A heap of spheres stands by resistance to rolling; without it they roll away, and lie one or two high (Zhou et al. 2002).
 #[test]
+#[ignore = "minutes on a software adapter: `tests/run --test physics --test commands -- --include-ignored` runs it"]
 fn heaps_stand_by_resistance_to_rolling() {
     let [none, much] = [0.0, 0.5].map(height);
     println!("{none} {much}");
@@ -111,6 +112,7 @@ fn rates(diameter: f64, friction: f64) -> [f64; 2] {
 /// The law is one of orifices above 6 d; here 5 and 6.2 d, where the flow trembles as arches form and break: within 30 %. Published C are 0.55
 /// to 0.65. Negative controls: without the empty rim of 1.4 d it is off by more than twice, and without friction grains run faster.
 #[test]
+#[ignore = "minutes on a software adapter: `tests/run --test physics --test commands -- --include-ignored` runs it"]
 fn hoppers_flow_by_beverloos_law() {
     let law = |diameter: f64, rim: f64| 0.58 * 1500.0 * 9.81_f64.sqrt() * (diameter - rim * 0.01).powf(2.5);
     let rate = |diameter: f64, friction: f64| {

@@ -13,6 +13,7 @@ fn at(scene: &str, step: u32) -> State {
 /// (Knight, Jaeger & Nagel 1993). After twenty periods their mean height is 0.79 of that of the beads, from a quarter at the start; with walls
 /// without friction, which do not drag, it was 0.34.
 #[test]
+#[ignore = "minutes on a software adapter: `tests/run --test physics --test commands -- --include-ignored` runs it"]
 fn large_grains_rise_where_walls_are_rough() {
     // The floor is where it began.
     let state = at("brazil_nut", 9000);
@@ -26,6 +27,7 @@ fn large_grains_rise_where_walls_are_rough() {
 /// Behind a post in a rapid flow of grains a wedge stays free of them (Gray, Tai & Noelle, J. Fluid Mech. 491, 161, 2003). Without the post
 /// twenty grains were there.
 #[test]
+#[ignore = "minutes on a software adapter: `tests/run --test physics --test commands -- --include-ignored` runs it"]
 fn an_avalanche_leaves_a_wedge_behind_a_post() {
     let state = at("avalanche", 8000);
     let within = |low: f64, high: f64| {

@@ -44,10 +44,11 @@ fn molecules(side: u32, atoms: u32, spacing: f64, seed: u64) -> (State, Bounds) 
     let mut state = state.expect("molecules");
     for first in (0..u32::try_from(state.len()).expect("few")).step_by(atoms as usize) {
         state.links.springs.extend((first..first + atoms - 1).map(|i| bond([i, i + 1])));
-        state
-            .links
-            .joints
-            .extend((first + 2..first + atoms).map(|i| Joint { ids: [i - 2, i - 1, i], stiffness: 30.0 }));
+        state.links.joints.extend((first + 2..first + atoms).map(|i| Joint {
+            ids: [i - 2, i - 1, i],
+            stiffness: 30.0,
+            rest: 0.0,
+        }));
     }
     (state, periodic(DVec3::splat(-half), DVec3::splat(half)))
 }

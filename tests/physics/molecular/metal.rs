@@ -381,6 +381,7 @@ fn every_stage_reads_the_densities_of_its_places() {
 
 /// Thermostats hold the temperature of a metal: k T of 600 K, from a crystal that begins with half of what it needs.
 #[test]
+#[ignore = "minutes on a software adapter: `tests/run --test physics --test commands -- --include-ignored` runs it"]
 fn thermostats_hold_a_metal_at_its_temperature() {
     let kt = 0.0517;
     for seed in [1, 2] {

@@ -18,7 +18,7 @@ fn tip(pieces: u32, gamma: f64, base: f64) -> (f64, f64) {
     for i in 1..=pieces {
         beam.links.rods.push(Rod { ends: [i, i + 1], length: ds });
         let stiffness = if i == 1 { base / ds } else { 1.0 / ds };
-        beam.links.joints.push(Joint { ids: [i - 1, i, i + 1], stiffness });
+        beam.links.joints.push(Joint { ids: [i - 1, i, i + 1], stiffness, rest: 0.0 });
     }
     let weight = [("acceleration", vector(0.0, 0.0, -gamma))];
     let all = vec![

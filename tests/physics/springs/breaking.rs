@@ -91,6 +91,9 @@ fn broken_stays_broken_over_a_restart() {
         rest: 1.0,
         stiffness: 1.0,
         damping: 0.0,
+        angle: 180.0,
+        multiplicity: 1,
+        phase: 0.0,
     };
     let read = motes::formats::links::read(
         &motes::formats::Input::disk(&path),

@@ -42,4 +42,21 @@ pub const CLAIMS: &[Claim] = &[
         long: false,
         measure: |course| temperature(course.last()),
     },
+    Claim {
+        name: "madelung",
+        family: "molecules",
+        about: "eight ions of rock salt in a periodic cube, and all their images",
+        run: Run::Own(
+            "[simulation]\ndt = 0.001\nsteps = 1\n[box]\nsize = [2, 2, 2]\n[[particles]]\nbodies = [{ position = [0.5, 0.5, 0.5], charge = 1 }, { position = [0.5, 0.5, 1.5], charge = -1 }, { position = [0.5, 1.5, 0.5], charge = -1 }, { position = [0.5, 1.5, 1.5], charge = 1 }, { position = [1.5, 0.5, 0.5], charge = -1 }, { position = [1.5, 0.5, 1.5], charge = 1 }, { position = [1.5, 1.5, 0.5], charge = 1 }, { position = [1.5, 1.5, 1.5], charge = -1 }]\n\
+             [[force]]\nkind = \"coulomb\"\nimages = \"ewald\"\nrange = 1\naccuracy = 1e-6\n",
+        ),
+        quantity: "energy of a pair of ions [k q² / d]",
+        published: -1.747_564_594_6,
+        source: "Madelung's constant of rock salt (Crandall & Buhler, J. Phys. A 20, 5497, 1987)",
+        tolerance: 2e-5,
+        because: "single precision: some 400 waves that add up to 3, each rounded by 6e-8, with sines and cosines that are right to 1e-6",
+        control: &["box.size=[2.01, 2.01, 2.01]"],
+        long: false,
+        measure: |course| course.first().energies().map_or(f64::NAN, |all| all.iter().sum::<f64>() / 4.0),
+    },
 ];

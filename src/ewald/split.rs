@@ -29,7 +29,7 @@ const PARTS: u32 = 1 << 14;
 impl Split {
     /// For a root mean square error of the force of a unit mass, over the cube [G M / L²].
     pub fn new(accuracy: f64) -> Self {
-        if accuracy >= FITTED { Self::fitted() } else { Self::of(accuracy) }
+        if accuracy >= FITTED { Self::fitted() } else { Self::of(sharpness(accuracy)) }
     }
     /// 126 waves up to |k|² = 14. P is (1 − v)^(−1/2) to second order, so that the force and its slope vanish at half a side; the rest was fitted
     /// so that the waves left out are the least, in the mean over the cube, among all polynomials of its degree (`benches/ewald_split.py`;
@@ -41,8 +41,7 @@ impl Split {
     /// By the window √(1 − t²) I₁(β √(1 − t²)), which is next to the best for a band of waves (Kaiser & Schafer, IEEE Trans. ASSP 28, 105, 1980, one order above theirs, so
     /// that the force vanishes at half a side). Its P is the series of (1 − v)^(−1/2) with its n-th coefficient faded by what is left from n on of a
     /// sum with terms in the ratio (β / 2)² / (n (n + 3/2)). Waves end where its transform stops falling, and those left out are 35 to 105 exp(−β) in all.
-    fn of(accuracy: f64) -> Self {
-        let beta = (130.0 / accuracy).ln();
+    pub fn of(beta: f64) -> Self {
         let mut terms = vec![1.0];
         let mut n = 1.0;
         while let Some(last) = terms.last().filter(|last| n < beta || **last > 1e-18 * terms.iter().sum::<f64>()) {
@@ -62,7 +61,7 @@ impl Split {
         let newton = |n: usize| (1..=n).map(|m| 1.0 - 0.5 / m as f64).product::<f64>();
         let coefficients = tails.iter().rev().enumerate().map(|(n, tail)| newton(n) * tail / left).collect();
         #[expect(clippy::cast_possible_truncation, reason = "below a hundred")]
-        let shells = (beta / (0.97 * PI)).powi(2).ceil() as i32 - 1;
+        let shells = (last_wave(beta) / PI).powi(2).ceil() as i32 - 1;
         Self { coefficients, shells, softens: false }
     }
     /// P, P′, P″ and P‴.
@@ -106,6 +105,16 @@ impl Split {
         }
         all
     }
+}
+
+/// β of a window that gives the force of a unit mass such a root mean square error, over the cube [G M / L²].
+pub fn sharpness(accuracy: f64) -> f64 {
+    (130.0 / accuracy).ln()
+}
+
+/// Where waves end: there the transform of the window of β stops falling. In radians per half side.
+pub fn last_wave(beta: f64) -> f64 {
+    beta / 0.97
 }
 
 /// The integral from 0 to 1 of what has such values, by Simpson's rule.

@@ -13,15 +13,11 @@ use std::sync::Arc;
 use glam::{DVec3, DVec4};
 use rayon::prelude::*;
 
-use super::ewald_split::Split;
+use super::split::Split;
+use super::waves::{Strength, Waves, wave_at};
 use crate::error::Error;
-use crate::kernel::{ACCELERATION, Host, Kernel, POSITION, Pass, Problem, Shader, Side, Source, Threads};
+use crate::kernel::{ACCELERATION, Host, Kernel, Name, POSITION, Problem, Side, Threads, World};
 use crate::visit::Group;
-
-/// Blocks into which particles are cut for a structure factor: enough to keep a device busy, and few to add.
-const BLOCKS: u32 = 512;
-/// Particles in a block: no fewer than are worth it, and no more than a loop may take.
-const BLOCK: std::ops::RangeInclusive<u32> = 32..=32_768;
 
 /// h = s^(−1/2) − (2 / L) P(1 − (2 / L)² q) and its first three derivatives by r², with s = r² + ε², and q = s or r²; 0 from half a side on.
 fn faded(split: &Split, softening: f64, r: DVec3, frequency: f64) -> [f64; 4] {
@@ -85,78 +81,41 @@ pub fn fits(problem: &Problem, softening: f64) -> Result<(), Error> {
 /// The widest softening, of a side.
 const WIDEST: f64 = 0.125;
 
-/// What comes beside the law between two: the structure factor, and what each particle makes of it. Before the sources of
-/// the waves, the structure factor, its sum, and the images are those of the world.
+/// Masses.
+struct Masses;
+
+impl Strength for Masses {
+    fn all(&self, host: &Host) -> Result<Vec<f64>, Error> {
+        Ok(host.read(POSITION)?.iter().map(|p| p.w).collect())
+    }
+    fn kept(&self, _: DVec4, _: &World) -> f64 {
+        1.0
+    }
+}
+
+/// What comes beside the law between two: the structure factor, and what each particle makes of it.
 ///
 /// # Errors
 /// When a shader does not compile.
-pub fn kernels(
-    split: &Split,
-    g: f64,
-    world: &[Source],
-    [wave, structure, sum, images]: [Source; 4],
-    problem: &Problem,
-) -> Result<[Kernel; 2], Error> {
-    let waves = Arc::new(split.waves());
+pub fn kernels(split: &Split, g: f64, problem: &Problem) -> Result<[Kernel; 2], Error> {
+    let [vector, structure, parts] = ["gravity_wave", "structure", "structure_parts"].map(Name::from);
+    let waves = Waves { vectors: Arc::new(split.waves()), vector, structure, parts };
     let count = problem.capacity;
-    let number = u32::try_from(waves.len()).unwrap_or(u32::MAX);
-    let block = count.div_ceil(BLOCKS).clamp(*BLOCK.start(), *BLOCK.end());
-    let blocks = count.div_ceil(block).max(1);
-    let join = |files: &[Source]| Shader::join(&[world, files].concat());
-    let all = ("WAVES", f64::from(number));
-    let with = |shader, constants: &[(&'static str, f64)], threads, work| Pass {
-        constants: constants.to_vec(),
-        threads,
-        work,
-        ..Pass::new(shader, count)
-    };
-    let work = u64::from(count) * u64::from(number);
-    let lanes = Threads { count: blocks * 64, layers: number.div_ceil(64) };
-    let passes = vec![
-        with(join(&[wave.clone(), structure])?, &[all, ("BLOCK", f64::from(block))], lanes, work),
-        with(join(&[sum])?, &[all, ("BLOCKS", f64::from(blocks))], Threads::new(number), u64::from(number * blocks)),
+    let files = [
+        crate::shader!("world.wgsl"),
+        crate::shader!("fields.wgsl"),
+        crate::shader!("law/circle.wgsl"),
+        crate::shader!("ewald/waves.wgsl"),
     ];
-    #[expect(clippy::cast_possible_truncation, reason = "as the device holds it")]
-    let words = waves.iter().flat_map(DVec4::to_array).map(|x| (x as f32).to_bits()).collect();
-    let table = vec![("gravity_wave".into(), Arc::new(words))];
-    let sizes = vec![
-        ("gravity_wave".into(), waves.len() as u64),
-        ("structure".into(), 2 * waves.len() as u64),
-        ("structure_parts".into(), u64::from(blocks) * waves.len() as u64),
-    ];
+    let factor = [&files[..], &[crate::shader!("ewald/masses.wgsl")]].concat();
+    let structure = waves.structure(&factor, Masses, problem)?;
     let alone = 2.0 * split.taper(1.0)[0];
-    let factor = waves.clone();
-    let structure = Kernel {
-        name: String::new(),
-        passes,
-        reference: Some(Arc::new(move |host| add_up(&factor, host))),
-        sizes,
-        scratch: vec!["structure_parts".into()],
-        tables: table,
-    };
-    let pass = with(join(&[wave, images])?, &[all, ("G", g), ("SELF", alone)], Threads::new(count), work);
-    let images = Kernel {
-        passes: vec![pass],
-        reference: Some(Arc::new(move |host| add_waves(g, alone, &waves, host))),
-        scratch: Vec::new(),
-        ..structure.clone()
-    };
+    let files = [&files[..], &[crate::shader!("ewald/mass_images.wgsl")]].concat();
+    let work = u64::from(count) * u64::from(waves.number());
+    let pass = waves.pass(&files, &[("G", g), ("SELF", alone)], Threads::new(count), work)?;
+    let mut images = waves.kernel(vec![pass]);
+    images.reference = Some(Arc::new(move |host| add_waves(g, alone, &waves.vectors, host)));
     Ok([structure, images])
-}
-
-/// S(k), real and imaginary part after each other.
-fn add_up(waves: &[DVec4], host: &Host) -> Result<(), Error> {
-    let (position, frequency) = (host.read(POSITION)?, host.world().bounds.frequency());
-    let bodies = &position[..(host.world().count as usize).min(position.len())];
-    let mut structure = host.writing::<f32>("structure")?;
-    structure.par_chunks_mut(2).zip(waves).for_each(|(s, wave)| {
-        let sum = bodies.iter().fold((0.0, 0.0), |(re, im), p| {
-            let (sine, cosine) = (2.0 * PI * wave.truncate().dot(p.truncate() * frequency)).sin_cos();
-            (re + p.w * cosine, im + p.w * sine)
-        });
-        (s[0], s[1]) = sum;
-    });
-    Ok(())
 }
 
 /// Adds the accelerations by waves to each particle.
@@ -167,8 +126,7 @@ fn add_waves(g: f64, alone: f64, waves: &[DVec4], host: &Host) -> Result<(), Err
     acceleration.par_iter_mut().zip(position.par_iter()).for_each(|(a, p)| {
         let mut sum = DVec4::new(0.0, 0.0, 0.0, alone * p.w);
         for (wave, s) in waves.iter().zip(structure.chunks(2)) {
-            let k = wave.truncate();
-            let (sine, cosine) = (2.0 * PI * k.dot(p.truncate() * frequency)).sin_cos();
+            let (k, [cosine, sine]) = (wave.truncate(), wave_at(*wave, *p, frequency));
             let (same, across) = (cosine * s[0] + sine * s[1], cosine * s[1] - sine * s[0]);
             sum += wave.w * (2.0 * PI * frequency.x * across * k).extend(-same);
         }

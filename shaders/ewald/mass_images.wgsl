@@ -9,14 +9,14 @@ override SELF: f32 = 1.0;
 const WORKGROUP: u32 = 64u;
 
 @compute @workgroup_size(WORKGROUP)
-fn gravity_images(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u, @builtin(local_invocation_index) lane: u32) {
+fn mass_images(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u, @builtin(local_invocation_index) lane: u32) {
     let i = folded(group, groups) * WORKGROUP + lane;
     if i < world.count {
         let me = position[i];
         var pull = vec3f();
         var potential = SELF * me.w;
         for (var wave = 0u; wave < WAVES; wave += 1u) {
-            let k = gravity_wave[wave];
+            let k = wave_vector[wave];
             let here = k.w * wave_at(k.xyz, me.xyz);
             let re = structure[2u * wave];
             let im = structure[2u * wave + 1u];
