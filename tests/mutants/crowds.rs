@@ -39,6 +39,8 @@ pub const EQUIVALENT: &[Equivalent] = &[
     same("crowds/floor.wgsl", "if dot(r, r) > clearance", ">", ">=", EDGE),
     same("crowds/floor.wgsl", "hidden = hidden", "0u", "1u", TWO_WALLS),
     same("crowds/floor.wgsl", "hidden = hidden", "<", "<=", NO_WALL).sometimes(),
+    same("crowds/floor.wgsl", "let count = min(COUNT", "min", "max", "the table has as many rows").sometimes(),
+    same("crowds/floor.wgsl", "if into > 0.0", ">", ">=", "without a direction a pedestrian stays").sometimes(),
     same("crowds/floor.wgsl", "if distance < nearest", "<", "<=", "the end that two pieces share is one point"),
     same("crowds/floor.wgsl", "let left", ">", ">=", EDGE),
     same("crowds/floor.wgsl", "seen = left", "&", "|", AT_THE_LEFT),
@@ -127,6 +129,8 @@ fn floor() -> FloorPlan {
     let points = |list: &[[f64; 2]]| -> Vec<DVec2> { list.iter().copied().map(DVec2::from_array).collect() };
     let outline = points(&[
         [-5.0, -4.0],
+        // With it the sides of the thin wall have odd numbers, those of the hole even ones.
+        [-2.0, -4.15],
         [0.1, -4.25],
         [0.15, 0.5],
         [0.25, 0.5],
@@ -236,6 +240,12 @@ fn spaced(device: &Device, stages: &mut Vec<Stage>, species: &Value, plan: Optio
     // Two at one place, on an open floor far from the others.
     if plan.is_none() {
         state.position_mut()[8] = DVec3::new(12.0, 12.0, 0.0);
+    } else {
+        // Some stand close to each other, on two sides of the thin wall.
+        for (k, x) in state.position_mut()[20..60].iter_mut().enumerate() {
+            let side = if k % 2 == 0 { -0.25 } else { 0.65 };
+            *x = DVec3::new(side + 0.125 * random.next(), -4.0 + 0.1 * k as f64, 0.0).as_vec3().as_dvec3();
+        }
     }
     let twin = state.position()[8];
     state.position_mut()[9] = twin;
