@@ -1,14 +1,10 @@
 // Newton's law of gravity, softened by a cubic spline of support h = 2.8 ε, exact beyond it
 // (Monaghan & Lattanzio 1985; Springel, Yoshida & White 2001, appendix A): GADGET's, and PKDGRAV's, whose own ε is h / 2.
-struct Params { unused_word: u32, g: f32, softening: f32 }
-
-@group(3) @binding(0) var<uniform> params: Params;
-
 // Beyond its support the spline is Newton's law.
 fn softened(r: vec3f) -> f32 { return dot(r, r); }
 
 fn gather(me: Particle, you: Particle, r: vec3f, sum: ptr<function, Sum>) {
-    let h = 2.8 * params.softening;
+    let h = 2.8 * softening_of(me, you);
     let distance2 = dot(r, r);
     var force: f32;
     var potential: f32;

@@ -78,11 +78,15 @@ fn motions(setup: &Setup) -> Option<Remark> {
 fn softenings(setup: &Setup) -> Vec<Remark> {
     let far = setup.state.position().iter().map(|x| x.abs().max_element()).fold(0.0, f64::max);
     let place = last_place(far);
-    let remark = |law: crate::forces::Law| {
-        let softening = law.params.iter().find_map(|(name, value)| match value {
+    // The smallest of particles, where they have softenings of their own.
+    let own = setup.state.scalar("softening").unwrap_or_default().iter().copied();
+    let own = own.filter(|softening| *softening > 0.0).min_by(f64::total_cmp);
+    let remark = |(law, own): (crate::forces::Law, Option<f64>)| {
+        let given = law.params.iter().find_map(|(name, value)| match value {
             Scalar::Float(x) if name == "softening" && *x > 0.0 => Some(*x),
             _ => None,
-        })?;
+        });
+        let softening = given.or(own)?;
         (place > COARSE * softening).then(|| {
             let text = format!(
                 "the softening {softening} of `{}` is {:.1e} times the last place of single precision at the largest coordinate, {far:.4e}: \
@@ -101,7 +105,11 @@ fn softenings(setup: &Setup) -> Vec<Remark> {
                 ))
         })
     };
-    setup.forces.iter().flat_map(|force| force.laws()).filter_map(remark).collect()
+    let laws = setup.forces.iter().flat_map(|force| {
+        let has_own = force.columns().iter().any(|column| column.name == "softening");
+        force.laws().into_iter().map(move |law| (law, own.filter(|_| has_own)))
+    });
+    laws.filter_map(remark).collect()
 }
 
 /// Particles that cross a periodic box more than once in a step: their positions are meaningless.

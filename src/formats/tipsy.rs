@@ -2,8 +2,11 @@
 //! f32, in either byte order, with a header of 28 or 32 bytes.
 //!
 //! Header: time f64, nbodies, ndim, nsph, ndark, nstar i32, and in the standard form 4 bytes of padding that may hold anything.
-//! Every record starts with mass, position and velocity; what follows (density, softening, potential, ids of some writers) is
-//! not read.
+//! Every record starts with mass, position and velocity. Of what follows, the softening is read where a scene has softenings of particles
+//! (of gas it is the smoothing length, as in PKDGRAV); density, temperature, metals and potential are not.
+//!
+//! The codes that write Tipsy files end the spline of a softening ε at 2 ε, and motes at 2.8 ε: softenings are read as 2 / 2.8 of the
+//! file's, and written as 2.8 / 2 of a state's.
 
 use std::io::{self, Read, Write};
 
@@ -12,6 +15,7 @@ use glam::DVec3;
 use super::problems::Problems;
 use super::{Contents, Format, Heading, Input, input};
 use crate::error::Error;
+use crate::kernel::{Array, Columns, Kind};
 use crate::state::State;
 
 /// Its entry in the register. A header contains small counts, and therefore zeros; text does not.
@@ -21,7 +25,7 @@ pub(super) const FORMAT: Format = Format {
     endings: &["tipsy", "bin", "std", "tip"],
     begins: |start| start.contains(&0),
     contents: |_| Ok(Contents { headings: HELD.map(|title| Heading { title: title.to_owned(), whole: false }).to_vec(), ..Contents::default() }),
-    read: Some(|path, _| read(path)),
+    read: Some(read),
     write: Some(|out, state, _| write_tipsy(out, state, 0.0).map(drop)),
     left_out: Some(left_out),
     compresses: false,
@@ -31,10 +35,13 @@ pub(super) const FORMAT: Format = Format {
 /// Bytes of the header without its padding, and of the padding.
 const HEADER: usize = 28;
 const PADDING: usize = 4;
-/// The kinds of records in the order of the file, and their bytes.
-const KINDS: [(&str, u64); 3] = [("gas", 48), ("dark", 36), ("star", 44)];
+/// The kinds of records in the order of the file, their bytes, and the word that is the softening.
+const KINDS: [(&str, u64, usize); 3] = [("gas", 48, 9), ("dark", 36, 7), ("star", 44, 9)];
 /// The titles that it can hold.
-const HELD: [&str; 7] = ["x", "y", "z", "vx", "vy", "vz", "mass"];
+const HELD: [&str; 8] = ["x", "y", "z", "vx", "vy", "vz", "mass", SOFTENING];
+/// The column of softenings, and the support of the spline of one \[softenings\] in a file relative to that of motes.
+const SOFTENING: &str = "softening";
+const SUPPORT: f64 = 2.0 / 2.8;
 /// The longest record.
 const LONGEST: usize = 48;
 
@@ -76,12 +83,12 @@ fn array<const N: usize>(bytes: &[u8], at: usize) -> [u8; N] {
     bytes.get(at..at + N).and_then(|part| part.try_into().ok()).unwrap_or([0; N])
 }
 
-/// Reads particles and the time: gas first, then dark, then stars. Radii are 0.
+/// Reads particles and the time: gas first, then dark, then stars. Radii are 0. Softenings are read where `columns` has them.
 ///
 /// # Errors
 /// [`Error::Input`] with byte offsets: a file shorter than its header, no byte order in which `ndim` is 1 to 3, counts that do
-/// not add up or do not fit the file's size (found before memory is reserved), numbers that are not finite, negative masses.
-pub fn read(path: &Input<'_>) -> Result<State, Error> {
+/// not add up or do not fit the file's size (found before memory is reserved), numbers that are not finite, negative masses and softenings.
+pub fn read(path: &Input<'_>, columns: &Columns) -> Result<State, Error> {
     let (mut file, length) = path.open()?;
     let failed = |error: io::Error| input(path, error.to_string());
     let mut header = [0; HEADER];
@@ -90,7 +97,7 @@ pub fn read(path: &Input<'_>) -> Result<State, Error> {
     }
     file.read_exact(&mut header).map_err(failed)?;
     let (order, counts) = counted(&header).map_err(|message| input(path, message))?;
-    let size = HEADER as u64 + counts.iter().zip(KINDS).map(|(count, (_, bytes))| count * bytes).sum::<u64>();
+    let size = HEADER as u64 + counts.iter().zip(KINDS).map(|(count, (_, bytes, _))| count * bytes).sum::<u64>();
     if length == size + PADDING as u64 {
         file.read_exact(&mut [0; PADDING]).map_err(failed)?;
     } else if length != size {
@@ -110,29 +117,39 @@ pub fn read(path: &Input<'_>) -> Result<State, Error> {
         problems.note(|| format!("byte 0: the time {time} is not finite"));
     }
     let mut particles = State::default();
+    let own = columns.get(SOFTENING).filter(|column| column.kind == Kind::Scalar);
+    let mut softenings = Vec::new();
     let mut offset = length - size + HEADER as u64;
-    for (count, (kind, bytes)) in counts.into_iter().zip(KINDS) {
+    for (count, (kind, bytes, softening)) in counts.into_iter().zip(KINDS) {
         let mut record = [0; LONGEST];
         let record = &mut record[..usize::try_from(bytes).unwrap_or(LONGEST)];
         for index in 0..count {
             file.read_exact(record).map_err(failed)?;
-            let mut values = [0.0; 7];
-            for (place, value) in values.iter_mut().enumerate() {
+            let mut values = [0.0; 8];
+            let places = (0..7).chain(own.is_some().then_some(softening));
+            for (value, place) in values.iter_mut().zip(places) {
                 *value = order.f32(record, 4 * place);
                 if !value.is_finite() {
                     let at = offset + 4 * place as u64;
                     problems.note(|| format!("byte {at}: {kind} particle {index} holds {value}, which is not finite"));
                 }
             }
-            let [mass, x, y, z, vx, vy, vz] = values;
-            if mass < 0.0 {
-                problems.note(|| format!("byte {offset}: {kind} particle {index} has the mass {mass}, below 0"));
+            let [mass, x, y, z, vx, vy, vz, softening] = values;
+            for (what, value) in [("mass", mass), (SOFTENING, softening)] {
+                if value < 0.0 {
+                    problems.note(|| format!("byte {offset}: {kind} particle {index} has the {what} {value}, below 0"));
+                }
             }
+            softenings.push(SUPPORT * softening);
             particles.push(DVec3::new(x, y, z), DVec3::new(vx, vy, vz), mass, 0.0);
             offset += bytes;
         }
     }
     problems.check(path)?;
+    if let Some(column) = own {
+        particles.declare(column)?;
+        particles.set(SOFTENING, Array::Float(softenings))?;
+    }
     particles.time = time;
     Ok(particles)
 }
@@ -168,8 +185,8 @@ fn left_out(state: &State) -> Vec<String> {
     titles.filter(|title| !HELD.contains(&title.as_str())).collect()
 }
 
-/// Writes the standard form: big-endian, padded header, every particle a dark one in the order of the ids, with the same `softening`
-/// \[length\] and a potential of 0. Numbers are narrowed to f32. The format holds positions, velocities, masses and the time; returns the
+/// Writes the standard form: big-endian, padded header, every particle a dark one in the order of the ids, with its own softening, or this
+/// one where it has none \[length, that of the file\], and a potential of 0. Numbers are narrowed to f32. The format holds positions, velocities, masses and the time; returns the
 /// names of the columns that it cannot hold, and whose values are not the initial ones.
 ///
 /// # Errors
@@ -183,8 +200,10 @@ pub fn write_tipsy(mut out: impl Write, state: &State, softening: f64) -> io::Re
         out.write_all(&word.to_be_bytes())?;
     }
     let mut record = [0; 36];
+    let own = state.scalar(SOFTENING);
     for (id, ((x, v), mass)) in particles.position().iter().zip(particles.velocity()).zip(particles.mass()).enumerate()
     {
+        let softening = own.and_then(|own| own.get(id)).map_or(softening, |own| own / SUPPORT);
         let values = [*mass, x.x, x.y, x.z, v.x, v.y, v.z, softening, 0.0];
         for (value, bytes) in values.iter().zip(record.chunks_exact_mut(4)) {
             #[expect(clippy::cast_possible_truncation, reason = "the format is single precision")]

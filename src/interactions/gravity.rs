@@ -6,9 +6,10 @@ use std::sync::Arc;
 use glam::{DVec3, DVec4};
 
 use super::{Component, Law, Over, Problem, Properties, Stage, evaluate, numbered, params};
+use crate::component::Largest;
 use crate::error::Error;
 use crate::ewald::{self, FITTED, LEAST, Split};
-use crate::kernel::{Plan, Scalar, Side, Source, World};
+use crate::kernel::{Bounds, Column, Kind as Element, Plan, Scalar, Side, Source, World};
 use crate::settings::{Key, Kind, Settings, Value};
 use crate::tree::Opening;
 use crate::visit::{Particle, Group};
@@ -18,6 +19,7 @@ pub const KEYS: &[Key] = &[
     Key::new("g", Kind::Number, Value::Number(1.0), "the gravitational constant [length³ / mass / time²]"),
     Key::new("softening", Kind::NotNegative, Value::Number(0.0), "the Plummer softening ε; the spline ends at 2.8 ε, so for PKDGRAV's own ε (whose spline ends at 2 ε) set 2/2.8 of it [length]"),
     Key::new("kernel", Kind::Choice(&["plummer", "spline"]), Value::Text(Cow::Borrowed("plummer")), "the softening kernel"),
+    Key::new("individual_softening", Kind::Flag, Value::Flag(false), "whether each particle has a softening of its own, the column `softening`: the larger one of a pair counts, and the key `softening` is the largest there may be"),
     Key::new("over", Kind::Choice(&["pairs", "tree", "auto"]), Value::Text(Cow::Borrowed("pairs")), "which pairs are evaluated: all (direct summation), or far groups approximated by a tree; \"auto\": whichever is faster"),
     Key::new("theta", Kind::Fraction, Value::Number(0.5), "the opening angle θ of the tree, at most 1: a group of size l is approximated beyond the distance l / θ"),
     Key::new("alpha", Kind::NotNegative, Value::Number(0.0), "above 0: the relative opening criterion (GADGET): a group of mass M and size l is approximated where G M l² / d⁴ is below α times the last acceleration"),
@@ -27,7 +29,7 @@ pub const KEYS: &[Key] = &[
 ];
 
 /// `gravity`: a = G m r / (r² + ε²)^(3/2), or the spline of GADGET, which is exact beyond 2.8 ε
-/// (PKDGRAV has the same spline, and calls half of its support ε).
+/// (PKDGRAV has the same spline, and calls half of its support ε). With softenings of particles the larger one of a pair counts, as in GADGET.
 #[derive(Clone)]
 pub struct Gravity(Settings);
 
@@ -82,14 +84,79 @@ impl Gravity {
         }
         Ok(())
     }
+    /// Whether particles have softenings of their own.
+    fn is_individual(&self) -> bool {
+        self.0.flag("individual_softening")
+    }
+    /// The law with softenings of particles, whose larger one is that of a pair (as in GADGET).
+    fn individual(&self) -> Law {
+        let (g, largest) = (self.0.number("g"), self.0.number("softening"));
+        let values = params(&self.0, &["g"]);
+        let of = |me: &Particle, you: &Particle| own(me).max(own(you));
+        if self.0.text("kernel") == "plummer" {
+            let files = (crate::shader!("interactions/gravity_individual.wgsl"), None);
+            let rule = move |me: &Particle, you: &Particle, r, _: &World| plummer(g * you.mass, of(me, you), r);
+            // Over all pairs alone.
+            let far = |_: &Particle, _: &Group, _, _: &World| DVec4::ZERO;
+            return Law::attracting("gravity_individual", self.over(0.0), files, values, rule, far);
+        }
+        let quadrupole = self.0.text("multipoles") == "quadrupole";
+        let distant = if quadrupole {
+            crate::shader!("interactions/gravity_distant.wgsl")
+        } else {
+            // A group has no index to find a softening by.
+            crate::shader!("interactions/gravity_distant_mass.wgsl")
+        };
+        let files = (crate::shader!("interactions/gravity_spline.wgsl"), Some(distant));
+        let rule = move |me: &Particle, you: &Particle, r, _: &World| spline(g * you.mass, SUPPORT * of(me, you), r);
+        let far = move |_: &Particle, you: &Group, r, _: &World| multipole(g, you, 0.0, r, quadrupole);
+        let law = Law::attracting("gravity_spline", self.over(SUPPORT * largest), files, values, rule, far);
+        Law { beside: vec![crate::shader!("interactions/gravity_softenings.wgsl")], ..law }
+    }
     /// The law of far groups; none where they are evaluated as one particle.
     fn distant(&self, law: Source) -> Option<Source> {
         (self.0.text("multipoles") == "quadrupole").then_some(law)
     }
 }
 
+/// The support of the spline \[softenings\]: with it a potential in the middle is that of Plummer's law.
+const SUPPORT: f64 = 2.8;
+
+/// The softening of a particle.
+fn own(particle: &Particle) -> f64 {
+    particle.scalar("softening").unwrap_or_default()
+}
+
 impl Component for Gravity {
+    fn columns(&self) -> Vec<Column> {
+        let softening = Column::new("softening", Element::Scalar, "length", "its own gravitational softening").required();
+        if self.is_individual() { vec![softening] } else { Vec::new() }
+    }
+    fn check(&self, _: &Bounds) -> Result<(), Error> {
+        if !self.is_individual() {
+            return Ok(());
+        }
+        let refuse = |why: &str| Err(Error::Setting { key: "individual_softening", why: why.to_owned() });
+        if self.all_images() {
+            return refuse(
+                "individual_softening beside images = \"ewald\", which is softened by one length: leave out either, or take nearest images over = \"pairs\"",
+            );
+        }
+        if self.0.number("softening") <= 0.0 {
+            return refuse("individual_softening with softening = 0: give the largest softening of a particle as `softening`");
+        }
+        if self.0.text("kernel") == "plummer" && self.0.text("over") != "pairs" {
+            return refuse(
+                "individual_softening over a tree with kernel = \"plummer\", by which a far group would need one softening: set kernel = \"spline\", which is \
+                 Newton's law beyond 2.8 softenings, or over = \"pairs\"",
+            );
+        }
+        Ok(())
+    }
     fn laws(&self) -> Vec<Law> {
+        if self.is_individual() {
+            return vec![self.individual()];
+        }
         let mut values = params(&self.0, &["g", "softening"]);
         let (g, softening) = (self.0.number("g"), self.0.number("softening"));
         let quadrupole = self.0.text("multipoles") == "quadrupole";
@@ -118,7 +185,7 @@ impl Component for Gravity {
             };
             Law::attracting("gravity_ewald", self.over(0.0), files, values, rule, far).of_all_images()
         } else if self.0.text("kernel") == "spline" {
-            let h = 2.8 * softening;
+            let h = SUPPORT * softening;
             let files = (
                 crate::shader!("interactions/gravity_spline.wgsl"),
                 self.distant(crate::shader!("interactions/gravity_distant.wgsl")),
@@ -126,7 +193,8 @@ impl Component for Gravity {
             let rule = move |_: &Particle, you: &Particle, r, _: &World| spline(g * you.mass, h, r);
             // Beyond its support the spline is Newton's law.
             let far = move |_: &Particle, you: &Group, r, _: &World| multipole(g, you, 0.0, r, quadrupole);
-            Law::attracting("gravity_spline", self.over(h), files, values, rule, far)
+            let law = Law::attracting("gravity_spline", self.over(h), files, values, rule, far);
+            Law { beside: vec![crate::shader!("interactions/gravity_softening.wgsl")], ..law }
         } else {
             let files =
                 (crate::shader!("interactions/gravity.wgsl"), self.distant(crate::shader!("interactions/gravity_distant.wgsl")));
@@ -136,7 +204,13 @@ impl Component for Gravity {
         }]
     }
     fn properties(&self) -> Properties {
-        Properties { ignores_massless: true, ..Properties::default() }
+        let limit = Largest {
+            column: "softening",
+            value: self.0.number("softening"),
+            why: "its key softening is the largest there may be",
+        };
+        let largest = if self.is_individual() { vec![limit] } else { Vec::new() };
+        Properties { ignores_massless: true, largest, ..Properties::default() }
     }
     fn stage(&self, stage: Stage, plan: &mut Plan, problem: &Problem) -> Result<(), Error> {
         let Stage::Evaluate { earlier } = stage else { return Ok(()) };

@@ -362,6 +362,15 @@ impl Setup {
             )));
         }
         self.complete()?;
+        for column in self.forces.iter().flat_map(|force| force.properties().largest).map(|limit| limit.column) {
+            let values = state.scalar(column).unwrap_or_default();
+            if let Some((value, place)) = values.iter().zip(0..).find(|(value, _)| **value < 0.0) {
+                let place: usize = place;
+                return Err(Error::Scene(format!(
+                    "particle {place} has the {column} {value}: it must not be negative"
+                )));
+            }
+        }
         let largest = self.largest(&BTreeMap::new());
         limited(&self.forces, &largest)
     }

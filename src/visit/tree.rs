@@ -6,11 +6,13 @@ use std::sync::Arc;
 use super::{Law, Over};
 use crate::error::Error;
 use crate::kernel::{
-    ALARM, ALARM_WORDS, Binding, Indirect, Kernel, Machine, Pass, Precision, Problem, Scalar, Shader, Side, Source,
-    Threads,
+    ALARM, ALARM_WORDS, Access, Binding, Indirect, Kernel, Machine, Pass, Precision, Problem, Scalar, Shader, Side,
+    Source, Threads,
 };
 use crate::tree::{GROUP, LEAF, Opening, Tree};
 
+/// Storage buffers that every device can bind in a stage.
+const STORAGE: usize = 8;
 /// Extra dispatches in which walks continue: each stops one check too late.
 const MORE: u32 = 4;
 /// A walk is assumed to search the targets of its group for one of this many nodes: the others are far from all of them, or near to one
@@ -113,6 +115,21 @@ fn rounds(tree: &Tree, machine: &Machine) -> u32 {
     u32::try_from((walk + search / SEARCHED) / turns).unwrap_or(u32::MAX).saturating_add(MORE)
 }
 
+/// Refuses columns for which the relative criterion leaves no binding.
+fn binds_few(law: &Law, tree: &Tree, machine: &Machine, shader: &Shader) -> Result<(), Error> {
+    let storage = shader.reflection().bindings.iter().filter(|binding| binding.access != Access::Uniform).count();
+    let is_relative = matches!(tree.opening, Opening::Relative { .. });
+    if storage <= STORAGE || !is_relative {
+        return Ok(());
+    }
+    let of = if machine.software { "a software adapter" } else { "a device" };
+    Err(Error::Scene(format!(
+        "`{}` over a tree binds {storage} storage buffers with the relative opening criterion on {of}, and devices have {STORAGE}: \
+         open by θ alone (alpha = 0), which takes one less, or read fewer columns",
+        law.name
+    )))
+}
+
 pub fn kernel(law: Law, tree: &Tree, problem: &Problem) -> Result<Kernel, Error> {
     law.requires_gather()?;
     law.requires_merge()?;
@@ -141,6 +158,7 @@ pub fn kernel(law: Law, tree: &Tree, problem: &Problem) -> Result<Kernel, Error>
     }
     let machine = &law.leaves(&problem.machine);
     let shader = join(&law, tree, problem, variant(machine), law.alarm_file())?;
+    binds_few(&law, tree, machine, &shader)?;
     let params = law.uniforms(&shader)?;
     let mut constants = problem.constants(&shader);
     constants.extend([("GROUP", f64::from(GROUP)), ("LEAF", f64::from(LEAF))]);

@@ -9,9 +9,9 @@ use motes::links::Link;
 use motes::settings::{Kind, Value};
 use motes::{Bounds, Gpu, Side, Simulation};
 
-use crate::stages::{Device, FEW, Stage, moving, put, stage};
-use crate::support::machines::{kernel, kernels};
-use crate::support::states::force;
+use crate::stages::{Device, FEW, Stage, fill, moving, put, stage};
+use crate::support::machines::{alone, kernel, kernels};
+use crate::support::states::{force, word};
 use crate::support::{self, choices};
 
 /// Every law alone, in all its variants; those over pairs by the visit that compiles fastest.
@@ -77,6 +77,26 @@ pub fn firsts(device: &Device, stages: &mut Vec<Stage>) {
             simulation.write(POSITION, &places).expect("places");
             stages.push(stage(&format!("{name}, {case}"), simulation, kernel));
         }
+    }
+}
+
+/// Softenings of particles: some reach beyond most of the cloud, and some are 0.
+pub fn softenings(device: &Device, stages: &mut Vec<Stage>) {
+    let machine = Machine::HOST;
+    for name in ["plummer", "spline"] {
+        let settings = [
+            ("g", Value::Number(1.3)),
+            ("softening", Value::Number(0.75)),
+            ("kernel", word(name)),
+            ("individual_softening", Value::Flag(true)),
+        ];
+        let plan = alone(kernel(force("gravity", &settings).as_ref(), FEW, &machine));
+        let mut simulation = resting(device, machine, Bounds::default());
+        fill(&mut simulation, &plan);
+        let mut random = support::Random::new(47);
+        let own: Vec<f32> = (0..FEW).map(|i| if i % 7 == 3 { 0.0 } else { 0.75 * random.narrow().abs() }).collect();
+        simulation.backend().write_bytes("softening", 0, bytemuck::cast_slice(&own)).expect("softenings");
+        stages.push(Stage::of(&format!("softenings, {name}"), simulation, plan));
     }
 }
 

@@ -274,6 +274,7 @@ pub fn all(shared: &Shared) -> Vec<Stage> {
     crate::boundary::boundary(&device, &mut stages);
     laws::all(&device, &mut stages);
     laws::firsts(&device, &mut stages);
+    laws::softenings(&device, &mut stages);
     laws::corners(&device, &mut stages);
     laws::overlong(&device, &mut stages);
     laws::virials(&device, &mut stages);

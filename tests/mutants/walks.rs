@@ -250,6 +250,18 @@ pub fn all(shared: &Shared, stages: &mut Vec<Stage>) {
             let scene = scene(device, machine, &bodies, 3.7, law);
             stages.push(scene.stage(&format!("walk {name}, {case}"), scene.plan()));
         }
+        // Far groups by their mass alone, of particles with softenings of their own.
+        let law =
+            [("over", "tree"), ("kernel", "spline"), ("multipoles", "monopole")].map(|(key, name)| (key, word(name)));
+        let numbers = [("theta", 0.8), ("softening", 0.17), ("g", 1.3)].map(|(key, x)| (key, Value::Number(x)));
+        let own = [("individual_softening", Value::Flag(true))];
+        let law = force("gravity", &[law.as_slice(), &numbers, &own].concat());
+        let soft = scene(device, machine, &bodies(700), 3.7, law);
+        let mut random = Random::new(53);
+        let softenings: Vec<f32> = (0..700).map(|_| 0.17 * random.narrow().abs()).collect();
+        let bytes = bytemuck::cast_slice(&softenings);
+        soft.simulation.borrow_mut().backend().write_bytes("softening", 0, bytes).expect("softenings");
+        stages.push(soft.stage(&format!("walk {name}, softenings"), soft.plan()));
         if machine.software {
             stops(device, name, machine, stages);
         }

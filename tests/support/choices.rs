@@ -78,6 +78,8 @@ fn values(key: &Key) -> Vec<Value> {
     match (key.kind, &key.default) {
         // Only a list lacks pairs: `tests/engine/neighbors/exclusions.rs`.
         _ if key.name == "exclude" => vec![Value::Number(0.0)],
+        // Wants a column that not every state has: `tests/engine/tree/softenings.rs`.
+        _ if key.name == "individual_softening" => vec![Value::Flag(false)],
         // What wants a box of its own has tests of its own.
         (Kind::Choice(["nearest", "ewald"]), _) => vec![Value::Text("nearest".into())],
         // The faster one of two searches is one of them, and has tests of its own.

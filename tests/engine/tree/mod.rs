@@ -12,5 +12,6 @@ mod lockstep;
 #[path = "../../../benches/baselines/met.rs"]
 mod met;
 mod sets;
+mod softenings;
 mod turns;
 mod walks;

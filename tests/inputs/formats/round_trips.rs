@@ -111,7 +111,7 @@ proptest! {
         let archive = put(&folder, "a.npz", npz_bytes(&particles, Precision::Single));
         prop_assert_eq!(bits(&read(&archive).expect("npz")), bits(&particles));
         let binary = put(&folder, "a.tipsy", tipsy_bytes(&particles));
-        let back = tipsy::read(&Input::disk(&binary)).expect("tipsy");
+        let back = tipsy::read(&Input::disk(&binary), &motes::kernel::Columns::default()).expect("tipsy");
         prop_assert_eq!((bits(&back), back.time), (bits(&particles), 2.5));
     }
 

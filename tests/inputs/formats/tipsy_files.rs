@@ -3,6 +3,7 @@
 use glam::DVec3;
 use motes::State;
 use motes::formats::{Input, tipsy};
+use motes::kernel::{Array, Column, Columns, Kind};
 
 use crate::formats::{folder, put, read, refused, some};
 
@@ -44,7 +45,8 @@ fn tipsy_reads_both_orders_and_both_headers() {
         for padded in [false, true] {
             for counts in [[2, 3, 4], [0, 5, 0], [0, 0, 1], [3, 0, 0], [0, 0, 0]] {
                 let (bytes, particles) = tipsy_file(little, padded, counts);
-                let back = tipsy::read(&Input::disk(&put(&folder, "a.tipsy", bytes))).expect("tipsy");
+                let back =
+                    tipsy::read(&Input::disk(&put(&folder, "a.tipsy", bytes)), &Columns::default()).expect("tipsy");
                 assert_eq!(back, particles, "{little} {padded} {counts:?}");
             }
         }
@@ -52,6 +54,44 @@ fn tipsy_reads_both_orders_and_both_headers() {
     // By what it starts with, where the name says nothing.
     let (bytes, particles) = tipsy_file(true, true, [1, 1, 1]);
     assert_eq!(read(&put(&folder, "galaxy", bytes)).expect("tipsy"), particles);
+}
+
+/// Softenings are read where they are asked for: of a spline that ends at 2 of the file's, and at 2.8 of those of a state.
+#[test]
+fn tipsy_has_softenings() {
+    let folder = folder();
+    let softening = |kind| Column::new("softening", kind, "length", "its own gravitational softening").required();
+    let columns = Columns::with([softening(Kind::Scalar)]).expect("a column");
+    for little in [false, true] {
+        let (bytes, plain) = tipsy_file(little, true, [2, 3, 4]);
+        let path = put(&folder, "a.tipsy", bytes);
+        let back = tipsy::read(&Input::disk(&path), &columns).expect("tipsy");
+        // The words of a record count from its first; the softening is that of the smoothing length of gas.
+        let words = [9.0, 9.0, 7.0, 7.0, 7.0, 9.0, 9.0, 9.0, 9.0];
+        let want: Vec<f64> =
+            words.iter().zip(plain.mass()).map(|(word, first)| f64::from((*first as f32) + word) / 1.4).collect();
+        assert_eq!(back.scalar("softening").expect("softenings").len(), want.len());
+        for (got, want) in back.scalar("softening").expect("softenings").iter().zip(&want) {
+            assert!((got - want).abs() < 1e-14 * want, "{got} is not {want}");
+        }
+        assert_eq!((back.position(), back.mass()), (plain.position(), plain.mass()));
+        // A column of that name and another kind is another quantity.
+        let other = Columns::with([softening(Kind::Vector)]).expect("a column");
+        assert!(tipsy::read(&Input::disk(&path), &other).expect("tipsy").get("softening").is_none());
+    }
+    // They outlive a round trip to the bit of f32, and nothing is said to be lost.
+    let mut state = some(20);
+    state.declare(&softening(Kind::Scalar)).expect("a column");
+    let own: Vec<f64> = (0..20_u8).map(|i| f64::from(0.01 * f32::from(i + 1)) / 1.4).collect();
+    state.set("softening", Array::Float(own.clone())).expect("softenings");
+    let mut bytes = Vec::new();
+    assert_eq!(tipsy::write_tipsy(&mut bytes, &state, 0.0).expect("memory"), Vec::<String>::new());
+    let dark = |i: usize| f32::from_be_bytes(bytes[32 + 36 * i + 28..32 + 36 * i + 32].try_into().expect("a word"));
+    assert!((0..20).all(|i| dark(i).to_bits() == (0.01 * (i + 1) as f32).to_bits()));
+    let back = tipsy::read(&Input::disk(&put(&folder, "b.tipsy", bytes)), &columns).expect("tipsy");
+    for (got, want) in back.scalar("softening").expect("softenings").iter().zip(&own) {
+        assert!((got - want).abs() < 1e-7 * want, "{got} is not {want}");
+    }
 }
 
 #[test]
