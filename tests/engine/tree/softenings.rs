@@ -117,7 +117,7 @@ fn the_larger_one_of_a_pair_counts() {
     }
 }
 
-/// Groups nearer than the largest spline reaches are opened, or the smallest error here would be some 2e-2.
+/// Groups nearer than the largest spline reaches are opened, or the error of quadrupoles would be 6.5e-4 here.
 #[test]
 fn a_tree_is_as_accurate_as_with_one_softening() {
     let shared = support::device();
