@@ -2,7 +2,7 @@
 
 use std::process::{Command, Stdio};
 
-use crate::small::SMALLER;
+use crate::support::small::SMALLER;
 use motes::scene::SCENES;
 
 fn run(scene: &str, out: &str, more: &[&str]) -> (Option<i32>, String) {
@@ -40,9 +40,11 @@ fn every_built_in_scene_runs_with_pictures() {
 #[test]
 fn pictures_do_not_change_what_springs_do() {
     let folder = tempfile::tempdir().expect("a folder");
-    for (scene, sizes) in
-        [("cloth", crate::small::smaller("cloth")), ("tear", crate::small::smaller("tear")), ("spring_chain", &[])]
-    {
+    for (scene, sizes) in [
+        ("cloth", crate::support::small::smaller("cloth")),
+        ("tear", crate::support::small::smaller("tear")),
+        ("spring_chain", &[]),
+    ] {
         let [with, without] = ["with", "without"].map(|name| folder.path().join(format!("{scene}_{name}")));
         for (out, formats) in [(&with, "[\"csv\", \"png\"]"), (&without, "[\"csv\"]")] {
             let formats = format!("output.formats={formats}");

@@ -2,8 +2,6 @@
 
 #[path = "../support/golden.rs"]
 mod golden;
-#[path = "../support/small.rs"]
-mod small;
 #[path = "../support/mod.rs"]
 mod support;
 

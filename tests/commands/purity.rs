@@ -11,7 +11,7 @@ const STEPS: &str = "7";
 fn last(scene: &str, out: &Path, more: &[&str]) -> Vec<u8> {
     let mut command = Command::new(env!("CARGO_BIN_EXE_motes"));
     command.args(["run", scene, "--backend", "gpu", "--steps", STEPS, "-q", "-o"]).arg(out).stdin(Stdio::null());
-    for set in crate::small::smaller(scene).iter().chain(more) {
+    for set in crate::support::small::smaller(scene).iter().chain(more) {
         command.args(["--set", set]);
     }
     let output = command.output().expect("the program starts");

@@ -6,8 +6,8 @@ use motes::kernel::{Backend, Next, Plan};
 use motes::scene::{Options, SCENES, Scene, Source};
 use motes::{Gpu, Setup, Simulation};
 
-use crate::small::SMALLER;
 use crate::support::scenes::{setup, with};
+use crate::support::small::SMALLER;
 use crate::support::{device, is_software};
 
 const STEPS: u32 = 3;

@@ -1,7 +1,5 @@
 //! What steps stand on: columns, laws, searches, primitives, backends, states.
 
-#[path = "../support/small.rs"]
-mod small;
 #[path = "../support/mod.rs"]
 mod support;
 

@@ -1,7 +1,7 @@
 //! Loops that end. A mutant may loop for as long as a driver lets it, once for each particle: tens of thousands of turns, on a processor
 //! seconds.
 
-use crate::joint::{name, without_comments};
+use crate::support::joint::{name, without_comments};
 
 /// Turns of all loops of a text in one invocation, at most: several times those of any stage. Where a stage took more, the shader as it is
 /// would not agree with its reference among mutants of which none is chosen, and its mutants that change nothing would count as noticed.

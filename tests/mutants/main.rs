@@ -20,7 +20,6 @@ mod fluids;
 mod grains;
 mod held;
 mod implicit;
-mod joint;
 mod laws;
 mod lists;
 mod matter;
@@ -53,6 +52,7 @@ use open::OPEN;
 use stages::Stage;
 use support::Shared;
 use support::equivalents::{Equivalent, Ledger};
+use support::joint::roomy;
 use support::machines::without_unused_word;
 use support::mutants::mutants;
 use support::tint;
@@ -67,16 +67,6 @@ const ASKED: usize = 1;
 
 /// A software device compiles shaders in one thread, its queue's: two devices keep two cores busy.
 const TURNS: usize = 2;
-
-/// A device of which a shader can have one buffer more than WebGPU promises: the one that chooses a mutant.
-fn roomy() -> Shared {
-    let mut shared = support::open();
-    let more = |limits: &mut motes::wgpu::Limits| {
-        limits.max_storage_buffers_per_shader_stage = u32::try_from(together::STORAGE).expect("few");
-    };
-    (shared.found.device, shared.found.queue) = pollster::block_on(support::limited(&shared, more));
-    shared
-}
 
 /// The shaders that have references.
 fn files() -> Vec<File> {

@@ -16,10 +16,11 @@ use motes::settings::Value;
 use motes::{Gpu, Setup, Simulation, wgpu};
 
 use crate::bounded::bounded;
+use crate::support::joint;
 use crate::support::machines::{alone, cut, kernel, machines};
 use crate::support::states::{force, integrator};
 use crate::support::{self, Shared};
-use crate::{alarms, columns, joint, laws, primitives};
+use crate::{alarms, columns, laws, primitives};
 
 /// Large, and not a round number: what is wrong in a step shows.
 const DT: f64 = 0.37;

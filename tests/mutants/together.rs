@@ -3,17 +3,11 @@
 use std::collections::BTreeSet;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use motes::kernel::{Access, Plan, Shader, Source};
+use motes::kernel::Plan;
 
-use crate::joint::{self, BUFFER};
 use crate::stages::Stage;
+use crate::support::joint::{self, MOST, declaration, with_buffer};
 use crate::support::mutants::Mutant;
-
-/// Mutants that are compiled together at most: texts with many of them are nested deeply, and drivers take longer for them than for several texts.
-const MOST: usize = 24;
-
-/// Storage buffers of a shader, at most: one more than by the limits of WebGPU, which the shaders themselves keep.
-pub const STORAGE: usize = 9;
 
 /// How often a stage was shown a mutant among others, and alone.
 pub static JOINED: AtomicUsize = AtomicUsize::new(0);
@@ -35,10 +29,7 @@ struct Together {
 impl Together {
     /// Those of the mutants that compile together, if there are two and the stage is good while none of them is chosen.
     fn of(stage: &Stage, file: &File, wanted: &[usize]) -> Option<Self> {
-        let storage = |shader: &Shader| {
-            shader.reflection().bindings.iter().filter(|binding| binding.access != Access::Uniform).count()
-        };
-        if stage.shaders(&file.name).any(|shader| storage(shader) >= STORAGE) {
+        if !stage.shaders(&file.name).all(joint::has_room) {
             return None;
         }
         let single: BTreeSet<String> = stage.shaders(&file.name).flat_map(|s| joint::single(s.module())).collect();
@@ -69,16 +60,6 @@ impl Together {
     }
 }
 
-/// The plan with one word for the choice.
-fn with_buffer(mut plan: Plan) -> Plan {
-    for kernel in &mut plan.kernels {
-        if kernel.passes.iter().any(|pass| pass.shader.reflection().binding(BUFFER).is_some()) {
-            kernel.sizes.push((BUFFER.into(), 1));
-        }
-    }
-    plan
-}
-
 /// Whether what mutants of a file change is chosen as the language groups it: brackets around all of it change nothing.
 pub fn grouped(stage: &Stage, file: &File) -> bool {
     let bracketed = joint::bracketed(&file.text, &file.mutants);
@@ -94,13 +75,6 @@ pub fn grouped(stage: &Stage, file: &File) -> bool {
         passes.flat_map(functions).collect::<Vec<_>>()
     };
     expressions(&bracketed) == expressions(&file.text)
-}
-
-/// The buffer that chooses, at the first binding that a shader leaves free.
-fn declaration(shader: &Shader) -> Vec<Source> {
-    let group = shader.reflection().bindings.iter().filter(|binding| binding.group == 0);
-    let free = group.map(|binding| binding.binding + 1).max().unwrap_or(0);
-    vec![Source::theirs(BUFFER.into(), joint::declaration(0, free))]
 }
 
 /// Those of the mutants that a stage does not notice.

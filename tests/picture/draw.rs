@@ -7,7 +7,7 @@ use motes::kernel::{Array, Backend, Pass, Plan, World};
 use motes::render::{Color, Exposure, Image, Picture};
 use motes::{Cpu, Gpu, State};
 
-use super::support::Shared;
+use super::support::{Shared, joint};
 
 /// A backend that holds the particles of a state.
 pub fn hold<B: Backend>(mut backend: B, state: &State, picture: &Picture) -> B {
@@ -76,7 +76,7 @@ impl Plans {
     /// For a picture that has been drawn of what a device holds.
     pub fn of(gpu: &mut Gpu, picture: &Picture) -> Self {
         let exposing = picture.plan().expect("a plan");
-        let exposure = expose(gpu, picture, &exposing).expect("an exposure");
+        let exposure = expose(gpu, picture, &exposing, None).expect("an exposure");
         Self { exposing, exposure, developing: picture.development(exposure).expect("a plan") }
     }
     pub fn passes(&self) -> impl Iterator<Item = &Pass> {
@@ -84,12 +84,14 @@ impl Plans {
     }
 }
 
-/// The picture by plans that are changed; `None` when one does not compile or run.
+/// The picture by plans that are changed, with the [`joint::choice`] of a mutant where several are compiled together; `None` when one does not
+/// compile or run.
 pub fn altered(
     gpu: &mut Gpu,
     picture: &Picture,
     plans: &Plans,
     change: impl Fn(&mut Plan) -> Option<()>,
+    choice: Option<u32>,
 ) -> Option<Image> {
     let mut exposing = plans.exposing.clone();
     change(&mut exposing)?;
@@ -97,11 +99,12 @@ pub fn altered(
     if !matches!(picture.color, Color::Given(_)) && exposing.fields(picture.frame.count).contains_key("color") {
         gpu.write("color", &Array::Uint(vec![0; picture.frame.count as usize])).ok()?;
     }
-    let exposure = expose(gpu, picture, &exposing)?;
+    let exposure = expose(gpu, picture, &exposing, choice)?;
     let same = exposure == plans.exposure;
     let mut developing = if same { plans.developing.clone() } else { picture.development(exposure).expect("a plan") };
     change(&mut developing)?;
     let program = gpu.compile(&developing).ok()?;
+    choose(gpu, &developing, choice)?;
     gpu.run(&program, 1).ok()?;
     let (width, height) = (picture.frame.width, picture.frame.height);
     let not_drawn = words(gpu, "not_drawn", 2)?;
@@ -109,9 +112,20 @@ pub fn altered(
     Some(Image { width, height, rgba, outside: not_drawn[0], broken: not_drawn[1] })
 }
 
-fn expose(gpu: &mut Gpu, picture: &Picture, plan: &Plan) -> Option<Exposure> {
+/// Chooses a mutant in a plan, if it has several.
+fn choose(gpu: &mut Gpu, plan: &Plan, choice: Option<u32>) -> Option<()> {
+    match choice {
+        Some(choice) if plan.fields(1).contains_key(joint::BUFFER) => {
+            gpu.write(joint::BUFFER, &Array::Uint(vec![choice])).ok()
+        }
+        _ => Some(()),
+    }
+}
+
+fn expose(gpu: &mut Gpu, picture: &Picture, plan: &Plan, choice: Option<u32>) -> Option<Exposure> {
     let frame = &picture.frame;
     let program = gpu.compile(plan).ok()?;
+    choose(gpu, plan, choice)?;
     if let (Color::Given(colors), true) = (&picture.color, plan.fields(frame.count).contains_key("color")) {
         gpu.write("color", &Array::Uint(colors.clone())).ok()?;
     }

@@ -6,9 +6,11 @@ pub mod choices;
 pub mod columns;
 pub mod equivalents;
 pub mod fluids;
+pub mod joint;
 pub mod machines;
 pub mod mutants;
 pub mod scenes;
+pub mod small;
 pub mod states;
 pub mod tint;
 

@@ -2,32 +2,13 @@
 
 use motes::Setup;
 use motes::integrators::Adaptive;
-use motes::scene::{Options, SCENES, Scene, Source};
+use motes::scene::{Options, Scene, Source};
 
-/// Particles of a shape, where a scene is made small.
-const FEW: usize = 200;
+use super::small::smaller;
 
-/// A built-in scene with few particles of every shape that has a count.
+/// A built-in scene with few particles.
 pub fn small(name: &str) -> Scene {
-    let text = SCENES.iter().find(|scene| scene.name == name).expect("a built-in scene").text;
-    let mut overrides = Vec::new();
-    for (i, shape) in text.split("[[particles]]").skip(1).enumerate() {
-        let lines = || shape.lines().take_while(|line| !line.starts_with('['));
-        let has = |key: &str| lines().filter_map(|line| line.split_once('=')).any(|(k, _)| k.trim() == key);
-        let count = lines().filter_map(|line| line.split_once('=')).find(|(key, _)| key.trim() == "count");
-        let count = count.and_then(|(_, value)| value.split_whitespace().next()?.parse::<usize>().ok());
-        if count.is_some_and(|count| count > FEW) {
-            overrides.push(format!("particles.{i}.count={FEW}"));
-        }
-        if has("columns") {
-            overrides.extend([format!("particles.{i}.columns=12"), format!("particles.{i}.rows=9")]);
-        }
-    }
-    if name == "periodic_box" {
-        overrides.push("particles.0.size=[8, 8, 8]".to_owned());
-    }
-    let overrides: Vec<_> = overrides.iter().map(String::as_str).collect();
-    with(name, &overrides)
+    with(name, smaller(name))
 }
 
 /// What a simulation of a scene is made of.

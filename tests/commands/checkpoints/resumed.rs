@@ -10,7 +10,7 @@ use motes::{Cpu, Error, Gpu, Setup, Simulation};
 use pollster::block_on;
 
 use crate::checkpoints::{Place, difference};
-use crate::small::smaller;
+use crate::support::small::smaller;
 
 pub type On<'a, B> = &'a dyn Fn(&Setup) -> Result<Simulation<B>, Error>;
 

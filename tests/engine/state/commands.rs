@@ -6,7 +6,9 @@ use std::process::{Command, Output, Stdio};
 fn run(scene: &str, out: &Path, more: &[&str]) -> Output {
     let mut command = Command::new(env!("CARGO_BIN_EXE_motes"));
     command.args(["run", scene, "--backend", "gpu", "--steps", "14", "-o"]).arg(out).stdin(Stdio::null());
-    for set in crate::small::smaller(scene).iter().chain(&["output.every=7", "output.formats=[\"npz\", \"csv\"]"]) {
+    for set in
+        crate::support::small::smaller(scene).iter().chain(&["output.every=7", "output.formats=[\"npz\", \"csv\"]"])
+    {
         command.args(["--set", set]);
     }
     command.args(more).output().expect("the program starts")

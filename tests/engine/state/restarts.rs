@@ -107,7 +107,7 @@ const MORE: &[(&str, &[&str])] = &[
 ];
 
 pub(super) fn every_scene<B: Backend>(on: &dyn Fn(&Setup) -> Result<Simulation<B>, Error>, precision: Precision) {
-    let scenes = SCENES.iter().map(|scene| (scene.name, crate::small::smaller(scene.name)));
+    let scenes = SCENES.iter().map(|scene| (scene.name, crate::support::small::smaller(scene.name)));
     let mut failures = Vec::new();
     for (name, sets) in scenes.chain(MORE.iter().copied()) {
         // A small periodic box has cells enough for its range with eight particles along each side.

@@ -3,7 +3,7 @@
 use glam::{DVec3, DVec4, Vec4};
 use motes::forces::Component;
 use motes::kernel::{Array, Column, Columns, Kind, Machine, Problem};
-use motes::lockstep::compare;
+use motes::lockstep::{Verdict, compare};
 use motes::settings::Value;
 use motes::{Bounds, Cpu, Energy, Setup, Simulation, State};
 
@@ -83,7 +83,7 @@ fn all_pairs_agree_with_their_reference() {
                 let verdicts =
                     pollster::block_on(compare(pairs.simulation.backend(), &plan, count as u32)).expect("verdicts");
                 assert!(!verdicts.is_empty(), "{name}, {kernel}: nothing is compared");
-                assert!(verdicts.iter().all(|v| v.good()), "{name}, {kernel}, {count}: {verdicts:?}");
+                assert!(verdicts.iter().all(Verdict::good), "{name}, {kernel}, {count}: {verdicts:?}");
             }
         }
     }
@@ -95,7 +95,7 @@ fn the_larger_one_of_a_pair_counts() {
     let mut random = Random::new(11);
     for case in 0..60 {
         let reach = LARGEST * [0.1, 0.7, 1.2, 2.0, 2.7, 3.1][case % 6];
-        let bodies = [DVec3::ZERO.extend(0.7), (reach * random.vector().normalize()).extend(1.9)].map(|x| x.as_vec4());
+        let bodies = [DVec3::ZERO.extend(0.7), (reach * random.vector().normalize()).extend(1.9)].map(DVec4::as_vec4);
         let own = [LARGEST as f32, 0.75 * LARGEST as f32 * random.narrow().abs()];
         for kernel in ["plummer", "spline"] {
             let one = [("g", Value::Number(1.3)), ("softening", Value::Number(LARGEST)), ("kernel", word(kernel))];
@@ -204,7 +204,7 @@ fn softenings_that_contradict_the_law_are_refused() {
         gravity([over, "spline", "quadrupole"], 0.5, 0.0).check(&Bounds::default()).expect("a spline");
     }
     let own = ("individual_softening", Value::Flag(true));
-    refused(force("gravity", &[own.clone()]), &["softening = 0", "the largest softening"]);
+    refused(force("gravity", std::slice::from_ref(&own)), &["softening = 0", "the largest softening"]);
     let images = [own, ("softening", Value::Number(0.2)), ("images", word("ewald"))];
     refused(force("gravity", &images), &["images = \"ewald\"", "leave out either"]);
 }

@@ -58,6 +58,7 @@ fn tipsy_reads_both_orders_and_both_headers() {
 
 /// Softenings are read where they are asked for: of a spline that ends at 2 of the file's, and at 2.8 of those of a state.
 #[test]
+#[expect(clippy::cast_possible_truncation, reason = "the records are single precision")]
 fn tipsy_has_softenings() {
     let folder = folder();
     let softening = |kind| Column::new("softening", kind, "length", "its own gravitational softening").required();

@@ -7,7 +7,10 @@ use std::ops::Range;
 use naga::Statement;
 use naga::valid::{Capabilities, GlobalUse, ValidationFlags, Validator};
 
-use crate::support::mutants::Mutant;
+use motes::kernel::{Access, Plan, Shader, Source};
+
+use super::Shared;
+use super::mutants::Mutant;
 
 /// The functions of a shader that are not called twice: they write storage, or what a pointer of theirs points to, or they call and loop, so that a
 /// text with many copies of them would grow from call to call.
@@ -38,9 +41,43 @@ pub const BUFFER: &str = "mutant_choice";
 /// What functions call the number in it.
 const CHOSEN: &str = "mutant_chosen";
 
-/// The declaration of the buffer, at a binding that is free.
-pub fn declaration(group: u32, binding: u32) -> String {
-    format!("@group({group}) @binding({binding}) var<storage, read> {BUFFER}: array<u32>;\n")
+/// Mutants that are compiled together at most: texts with many of them are nested deeply, and drivers take longer for them than for several texts.
+pub const MOST: usize = 24;
+
+/// Storage buffers of a shader, at most: one more than by the limits of WebGPU, which the shaders themselves keep.
+pub const STORAGE: usize = 9;
+
+/// A device of which a shader can have one buffer more than WebGPU promises: the one that chooses a mutant.
+pub fn roomy() -> Shared {
+    let mut shared = super::open();
+    let more = |limits: &mut motes::wgpu::Limits| {
+        limits.max_storage_buffers_per_shader_stage = u32::try_from(STORAGE).expect("few");
+    };
+    (shared.found.device, shared.found.queue) = pollster::block_on(super::limited(&shared, more));
+    shared
+}
+
+/// Whether such a device can bind the buffer that chooses beside those of a shader.
+pub fn has_room(shader: &Shader) -> bool {
+    shader.reflection().bindings.iter().filter(|binding| binding.access != Access::Uniform).count() < STORAGE
+}
+
+/// The buffer that chooses, at the first binding that a shader leaves free.
+pub fn declaration(shader: &Shader) -> Vec<Source> {
+    let group = shader.reflection().bindings.iter().filter(|binding| binding.group == 0);
+    let free = group.map(|binding| binding.binding + 1).max().unwrap_or(0);
+    let text = format!("@group(0) @binding({free}) var<storage, read> {BUFFER}: array<u32>;\n");
+    vec![Source::theirs(BUFFER.into(), text)]
+}
+
+/// The plan with one word for the choice.
+pub fn with_buffer(mut plan: Plan) -> Plan {
+    for kernel in &mut plan.kernels {
+        if kernel.passes.iter().any(|pass| pass.shader.reflection().binding(BUFFER).is_some()) {
+            kernel.sizes.push((BUFFER.into(), 1));
+        }
+    }
+    plan
 }
 
 /// The number that chooses this mutant, or none of them.
