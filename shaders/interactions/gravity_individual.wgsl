@@ -2,10 +2,10 @@
 struct Params { unused_word: u32, g: f32 }
 
 @group(3) @binding(0) var<uniform> params: Params;
-@group(3) @binding(1) var<storage, read> softening: array<f32>;
+@group(3) @binding(1) var<storage, read> softening_length: array<f32>;
 
 fn gather(me: Particle, you: Particle, r: vec3f, sum: ptr<function, Sum>) {
-    let e = max(softening[me.index], softening[you.index]);
+    let e = max(softening_length[me.index], softening_length[you.index]);
     let inverse = inverseSqrt(r.x * r.x + (r.y * r.y + (r.z * r.z + e * e)));
     let potential = you.mass * inverse;
     (*sum).acceleration += (potential * inverse * inverse) * r;

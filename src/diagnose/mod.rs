@@ -14,6 +14,7 @@ mod grains;
 mod images;
 mod jumps;
 mod rounding;
+mod softenings;
 mod solves;
 mod steps;
 
@@ -138,6 +139,7 @@ impl Judged {
         }
         remarks.extend(grains::remarks(setup));
         remarks.extend(crowds::remarks(setup)?);
+        remarks.extend(softenings::all_zero(setup));
         let verdict = Verdict::of(setup, &build, steps).await?;
         Ok(Self { verdict, start, lines, remarks })
     }

@@ -21,7 +21,7 @@ use crate::state::State;
 /// Its entry in the register. A header contains small counts, and therefore zeros; text does not.
 pub(super) const FORMAT: Format = Format {
     name: "tipsy",
-    about: "Tipsy, the binary format of n-body codes: positions, velocities and masses",
+    about: "Tipsy, the binary format of n-body codes: positions, velocities, masses and softenings",
     endings: &["tipsy", "bin", "std", "tip"],
     begins: |start| start.contains(&0),
     contents: |_| Ok(Contents { headings: HELD.map(|title| Heading { title: title.to_owned(), whole: false }).to_vec(), ..Contents::default() }),
@@ -40,7 +40,7 @@ const KINDS: [(&str, u64, usize); 3] = [("gas", 48, 9), ("dark", 36, 7), ("star"
 /// The titles that it can hold.
 const HELD: [&str; 8] = ["x", "y", "z", "vx", "vy", "vz", "mass", SOFTENING];
 /// The column of softenings, and the support of the spline of one \[softenings\] in a file relative to that of motes.
-const SOFTENING: &str = "softening";
+const SOFTENING: &str = "softening_length";
 const SUPPORT: f64 = 2.0 / 2.8;
 /// The longest record.
 const LONGEST: usize = 48;
@@ -120,24 +120,25 @@ pub fn read(path: &Input<'_>, columns: &Columns) -> Result<State, Error> {
     let own = columns.get(SOFTENING).filter(|column| column.kind == Kind::Scalar);
     let mut softenings = Vec::new();
     let mut offset = length - size + HEADER as u64;
-    for (count, (kind, bytes, softening)) in counts.into_iter().zip(KINDS) {
+    for (count, (kind, bytes, place)) in counts.into_iter().zip(KINDS) {
         let mut record = [0; LONGEST];
         let record = &mut record[..usize::try_from(bytes).unwrap_or(LONGEST)];
         for index in 0..count {
             file.read_exact(record).map_err(failed)?;
             let mut values = [0.0; 8];
-            let places = (0..7).chain(own.is_some().then_some(softening));
-            for (value, place) in values.iter_mut().zip(places) {
-                *value = order.f32(record, 4 * place);
+            let words = (0..7).chain(own.is_some().then_some(place));
+            for (value, word) in values.iter_mut().zip(words) {
+                *value = order.f32(record, 4 * word);
                 if !value.is_finite() {
-                    let at = offset + 4 * place as u64;
+                    let at = offset + 4 * word as u64;
                     problems.note(|| format!("byte {at}: {kind} particle {index} holds {value}, which is not finite"));
                 }
             }
             let [mass, x, y, z, vx, vy, vz, softening] = values;
-            for (what, value) in [("mass", mass), (SOFTENING, softening)] {
+            for (what, word, value) in [("mass", 0, mass), ("softening", place, softening)] {
                 if value < 0.0 {
-                    problems.note(|| format!("byte {offset}: {kind} particle {index} has the {what} {value}, below 0"));
+                    let at = offset + 4 * word as u64;
+                    problems.note(|| format!("byte {at}: {kind} particle {index} has the {what} {value}, below 0"));
                 }
             }
             softenings.push(SUPPORT * softening);
@@ -185,8 +186,18 @@ fn left_out(state: &State) -> Vec<String> {
     titles.filter(|title| !HELD.contains(&title.as_str())).collect()
 }
 
+/// A softening as a file has it, of which what is read is not larger in single precision: a scene refuses what is above its largest.
+#[expect(clippy::cast_possible_truncation, reason = "the format is single precision")]
+fn stretched(softening: f64) -> f64 {
+    let mut narrow = (softening / SUPPORT) as f32;
+    while narrow > 0.0 && (SUPPORT * f64::from(narrow)) as f32 > softening as f32 {
+        narrow = narrow.next_down();
+    }
+    f64::from(narrow)
+}
+
 /// Writes the standard form: big-endian, padded header, every particle a dark one in the order of the ids, with its own softening, or this
-/// one where it has none \[length, that of the file\], and a potential of 0. Numbers are narrowed to f32. The format holds positions, velocities, masses and the time; returns the
+/// one where it has none \[length, that of the file\], and a potential of 0. Numbers are narrowed to f32. The format holds positions, velocities, masses, softenings and the time; returns the
 /// names of the columns that it cannot hold, and whose values are not the initial ones.
 ///
 /// # Errors
@@ -203,7 +214,7 @@ pub fn write_tipsy(mut out: impl Write, state: &State, softening: f64) -> io::Re
     let own = state.scalar(SOFTENING);
     for (id, ((x, v), mass)) in particles.position().iter().zip(particles.velocity()).zip(particles.mass()).enumerate()
     {
-        let softening = own.and_then(|own| own.get(id)).map_or(softening, |own| own / SUPPORT);
+        let softening = own.and_then(|own| own.get(id)).map_or(softening, |own| stretched(*own));
         let values = [*mass, x.x, x.y, x.z, v.x, v.y, v.z, softening, 0.0];
         for (value, bytes) in values.iter().zip(record.chunks_exact_mut(4)) {
             #[expect(clippy::cast_possible_truncation, reason = "the format is single precision")]

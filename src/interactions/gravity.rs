@@ -19,7 +19,7 @@ pub const KEYS: &[Key] = &[
     Key::new("g", Kind::Number, Value::Number(1.0), "the gravitational constant [length³ / mass / time²]"),
     Key::new("softening", Kind::NotNegative, Value::Number(0.0), "the Plummer softening ε; the spline ends at 2.8 ε, so for PKDGRAV's own ε (whose spline ends at 2 ε) set 2/2.8 of it [length]"),
     Key::new("kernel", Kind::Choice(&["plummer", "spline"]), Value::Text(Cow::Borrowed("plummer")), "the softening kernel"),
-    Key::new("individual_softening", Kind::Flag, Value::Flag(false), "whether each particle has a softening of its own, the column `softening`: the larger one of a pair counts, and the key `softening` is the largest there may be"),
+    Key::new("individual_softening", Kind::Flag, Value::Flag(false), "whether each particle has a softening of its own, the column `softening_length`: the larger one of a pair counts, and `softening` is the largest there may be"),
     Key::new("over", Kind::Choice(&["pairs", "tree", "auto"]), Value::Text(Cow::Borrowed("pairs")), "which pairs are evaluated: all (direct summation), or far groups approximated by a tree; \"auto\": whichever is faster"),
     Key::new("theta", Kind::Fraction, Value::Number(0.5), "the opening angle θ of the tree, at most 1: a group of size l is approximated beyond the distance l / θ"),
     Key::new("alpha", Kind::NotNegative, Value::Number(0.0), "above 0: the relative opening criterion (GADGET): a group of mass M and size l is approximated where G M l² / d⁴ is below α times the last acceleration"),
@@ -76,9 +76,11 @@ impl Gravity {
             return ewald::fits(problem, self.0.number("softening"));
         }
         if self.0.text("over") == "tree" && problem.bounds.has(Side::Periodic) {
+            let all = "images = \"ewald\" in a cube that is periodic on all sides, or ";
+            let all = if self.is_individual() { "" } else { all };
             return Err(Error::Scene(format!(
                 "gravity over = \"tree\" in a periodic box ({}) cannot use nearest images alone: their force jumps half a box \
-                 away, within a group. Say images = \"ewald\" in a cube that is periodic on all sides, or over = \"pairs\"",
+                 away, within a group. Say {all}over = \"pairs\"",
                 problem.bounds
             )));
         }
@@ -122,14 +124,17 @@ impl Gravity {
 /// The support of the spline \[softenings\]: with it a potential in the middle is that of Plummer's law.
 const SUPPORT: f64 = 2.8;
 
+/// The column of softenings of particles.
+const LENGTH: &str = "softening_length";
+
 /// The softening of a particle.
 fn own(particle: &Particle) -> f64 {
-    particle.scalar("softening").unwrap_or_default()
+    particle.scalar(LENGTH).unwrap_or_default()
 }
 
 impl Component for Gravity {
     fn columns(&self) -> Vec<Column> {
-        let softening = Column::new("softening", Element::Scalar, "length", "its own gravitational softening").required();
+        let softening = Column::new(LENGTH, Element::Scalar, "length", "its own gravitational softening").required();
         if self.is_individual() { vec![softening] } else { Vec::new() }
     }
     fn check(&self, _: &Bounds) -> Result<(), Error> {
@@ -205,9 +210,9 @@ impl Component for Gravity {
     }
     fn properties(&self) -> Properties {
         let limit = Largest {
-            column: "softening",
+            column: LENGTH,
             value: self.0.number("softening"),
-            why: "its key softening is the largest there may be",
+            why: "it is the key `softening` of the force, which must be as large",
         };
         let largest = if self.is_individual() { vec![limit] } else { Vec::new() };
         Properties { ignores_massless: true, largest, ..Properties::default() }

@@ -367,7 +367,7 @@ impl Setup {
             if let Some((value, place)) = values.iter().zip(0..).find(|(value, _)| **value < 0.0) {
                 let place: usize = place;
                 return Err(Error::Scene(format!(
-                    "particle {place} has the {column} {value}: it must not be negative"
+                    "particle {place} has the {column} {value}: it is a length; give 0 or above"
                 )));
             }
         }

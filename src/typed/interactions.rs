@@ -17,7 +17,7 @@ typed! {
         softening: f64,
         /// The softening kernel: plummer, spline.
         kernel: Cow<'static, str>,
-        /// Whether each particle has a softening of its own, the column `softening`: the larger one of a pair counts, and the key `softening` is the largest there may be.
+        /// Whether each particle has a softening of its own, the column `softening_length`: the larger one of a pair counts, and `softening` is the largest there may be.
         individual_softening: bool,
         /// Which pairs are evaluated: all (direct summation), or far groups approximated by a tree; "auto": whichever is faster: pairs, tree, auto.
         over: Cow<'static, str>,

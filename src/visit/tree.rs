@@ -115,17 +115,17 @@ fn rounds(tree: &Tree, machine: &Machine) -> u32 {
     u32::try_from((walk + search / SEARCHED) / turns).unwrap_or(u32::MAX).saturating_add(MORE)
 }
 
-/// Refuses columns for which the relative criterion leaves no binding.
+/// Refuses columns for which the relative criterion leaves no binding; references bind nothing.
 fn binds_few(law: &Law, tree: &Tree, machine: &Machine, shader: &Shader) -> Result<(), Error> {
     let storage = shader.reflection().bindings.iter().filter(|binding| binding.access != Access::Uniform).count();
     let is_relative = matches!(tree.opening, Opening::Relative { .. });
-    if storage <= STORAGE || !is_relative {
+    if storage <= STORAGE || !is_relative || *machine == Machine::HOST {
         return Ok(());
     }
     let of = if machine.software { "a software adapter" } else { "a device" };
     Err(Error::Scene(format!(
         "`{}` over a tree binds {storage} storage buffers with the relative opening criterion on {of}, and devices have {STORAGE}: \
-         open by θ alone (alpha = 0), which takes one less, or read fewer columns",
+         open by θ alone (alpha = 0), which takes one less, or take over = \"pairs\"",
         law.name
     )))
 }

@@ -95,7 +95,7 @@ pub fn softenings(device: &Device, stages: &mut Vec<Stage>) {
         fill(&mut simulation, &plan);
         let mut random = support::Random::new(47);
         let own: Vec<f32> = (0..FEW).map(|i| if i % 7 == 3 { 0.0 } else { 0.75 * random.narrow().abs() }).collect();
-        simulation.backend().write_bytes("softening", 0, bytemuck::cast_slice(&own)).expect("softenings");
+        simulation.backend().write_bytes("softening_length", 0, bytemuck::cast_slice(&own)).expect("softenings");
         stages.push(Stage::of(&format!("softenings, {name}"), simulation, plan));
     }
 }

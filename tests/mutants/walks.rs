@@ -260,7 +260,7 @@ pub fn all(shared: &Shared, stages: &mut Vec<Stage>) {
         let mut random = Random::new(53);
         let softenings: Vec<f32> = (0..700).map(|_| 0.17 * random.narrow().abs()).collect();
         let bytes = bytemuck::cast_slice(&softenings);
-        soft.simulation.borrow_mut().backend().write_bytes("softening", 0, bytes).expect("softenings");
+        soft.simulation.borrow_mut().backend().write_bytes("softening_length", 0, bytes).expect("softenings");
         stages.push(soft.stage(&format!("walk {name}, softenings"), soft.plan()));
         if machine.software {
             stops(device, name, machine, stages);
