@@ -44,7 +44,7 @@ sofening = 0.05
    |
  8 | sofening = 0.05
    | ^^^^^^^^ did you mean `softening`?
-   = known here: `kind`, `g`, `softening`, `kernel`, `over`, `theta`, `alpha`, `images`, `accuracy`, `multipoles`
+   = known here: `kind`, `g`, `softening`, `kernel`, `individual_softening`, `over`, `theta`, `alpha`, `images`, `accuracy`, `multipoles`
 
 a.toml: 1 error",
     );
