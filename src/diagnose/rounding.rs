@@ -1,7 +1,9 @@
 //! Rounding in single precision: motions and softenings below its last place.
 
 use super::Remark;
+use super::softenings::reads;
 use crate::integrators::Precise;
+use crate::interactions::gravity::SOFTENING_LENGTH;
 use crate::kernel::{Machine, Precision, Scalar};
 use crate::simulation::Setup;
 
@@ -79,7 +81,7 @@ fn softenings(setup: &Setup) -> Vec<Remark> {
     let far = setup.state.position().iter().map(|x| x.abs().max_element()).fold(0.0, f64::max);
     let place = last_place(far);
     // The smallest of particles, where they have softenings of their own.
-    let own = setup.state.scalar("softening_length").unwrap_or_default().iter().copied();
+    let own = setup.state.scalar(SOFTENING_LENGTH).unwrap_or_default().iter().copied();
     let own = own.filter(|softening| *softening > 0.0).min_by(f64::total_cmp);
     let remark = |(law, own): (crate::forces::Law, Option<f64>)| {
         let given = law.params.iter().find_map(|(name, value)| match value {
@@ -106,7 +108,7 @@ fn softenings(setup: &Setup) -> Vec<Remark> {
         })
     };
     let laws = setup.forces.iter().flat_map(|force| {
-        let has_own = force.columns().iter().any(|column| column.name == "softening_length");
+        let has_own = reads(force.as_ref());
         force.laws().into_iter().map(move |law| (law, own.filter(|_| has_own)))
     });
     laws.filter_map(remark).collect()

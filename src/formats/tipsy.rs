@@ -15,6 +15,7 @@ use glam::DVec3;
 use super::problems::Problems;
 use super::{Contents, Format, Heading, Input, input};
 use crate::error::Error;
+use crate::interactions::gravity::SOFTENING_LENGTH;
 use crate::kernel::{Array, Columns, Kind};
 use crate::state::State;
 
@@ -38,9 +39,8 @@ const PADDING: usize = 4;
 /// The kinds of records in the order of the file, their bytes, and the word that is the softening.
 const KINDS: [(&str, u64, usize); 3] = [("gas", 48, 9), ("dark", 36, 7), ("star", 44, 9)];
 /// The titles that it can hold.
-const HELD: [&str; 8] = ["x", "y", "z", "vx", "vy", "vz", "mass", SOFTENING];
-/// The column of softenings, and the support of the spline of one \[softenings\] in a file relative to that of motes.
-const SOFTENING: &str = "softening_length";
+const HELD: [&str; 8] = ["x", "y", "z", "vx", "vy", "vz", "mass", SOFTENING_LENGTH];
+/// The support of the spline of a softening in a file \[softenings\], relative to that of motes.
 const SUPPORT: f64 = 2.0 / 2.8;
 /// The longest record.
 const LONGEST: usize = 48;
@@ -117,7 +117,7 @@ pub fn read(path: &Input<'_>, columns: &Columns) -> Result<State, Error> {
         problems.note(|| format!("byte 0: the time {time} is not finite"));
     }
     let mut particles = State::default();
-    let own = columns.get(SOFTENING).filter(|column| column.kind == Kind::Scalar);
+    let own = columns.get(SOFTENING_LENGTH).filter(|column| column.kind == Kind::Scalar);
     let mut softenings = Vec::new();
     let mut offset = length - size + HEADER as u64;
     for (count, (kind, bytes, place)) in counts.into_iter().zip(KINDS) {
@@ -149,7 +149,7 @@ pub fn read(path: &Input<'_>, columns: &Columns) -> Result<State, Error> {
     problems.check(path)?;
     if let Some(column) = own {
         particles.declare(column)?;
-        particles.set(SOFTENING, Array::Float(softenings))?;
+        particles.set(SOFTENING_LENGTH, Array::Float(softenings))?;
     }
     particles.time = time;
     Ok(particles)
@@ -211,7 +211,7 @@ pub fn write_tipsy(mut out: impl Write, state: &State, softening: f64) -> io::Re
         out.write_all(&word.to_be_bytes())?;
     }
     let mut record = [0; 36];
-    let own = state.scalar(SOFTENING);
+    let own = state.scalar(SOFTENING_LENGTH);
     for (id, ((x, v), mass)) in particles.position().iter().zip(particles.velocity()).zip(particles.mass()).enumerate()
     {
         let softening = own.and_then(|own| own.get(id)).map_or(softening, |own| stretched(*own));

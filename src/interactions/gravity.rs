@@ -125,16 +125,16 @@ impl Gravity {
 const SUPPORT: f64 = 2.8;
 
 /// The column of softenings of particles.
-const LENGTH: &str = "softening_length";
+pub(crate) const SOFTENING_LENGTH: &str = "softening_length";
 
 /// The softening of a particle.
 fn own(particle: &Particle) -> f64 {
-    particle.scalar(LENGTH).unwrap_or_default()
+    particle.scalar(SOFTENING_LENGTH).unwrap_or_default()
 }
 
 impl Component for Gravity {
     fn columns(&self) -> Vec<Column> {
-        let softening = Column::new(LENGTH, Element::Scalar, "length", "its own gravitational softening").required();
+        let softening = Column::new(SOFTENING_LENGTH, Element::Scalar, "length", "its own gravitational softening").required();
         if self.is_individual() { vec![softening] } else { Vec::new() }
     }
     fn check(&self, _: &Bounds) -> Result<(), Error> {
@@ -210,7 +210,7 @@ impl Component for Gravity {
     }
     fn properties(&self) -> Properties {
         let limit = Largest {
-            column: LENGTH,
+            column: SOFTENING_LENGTH,
             value: self.0.number("softening"),
             why: "it is the key `softening` of the force, which must be as large",
         };
