@@ -43,6 +43,8 @@ pub mod component;
 #[doc(hidden)]
 pub mod constraints;
 #[doc(hidden)]
+pub mod cosmology;
+#[doc(hidden)]
 pub mod cpu;
 #[doc(hidden)]
 pub mod crowds;

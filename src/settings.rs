@@ -118,8 +118,8 @@ pub struct Key {
     pub default: Option<Value>,
     /// One line: what it means, and its unit.
     pub about: &'static str,
-    /// Whether it is a property of the scene's fluid: shapes and emitters that leave it out use the value of the force.
-    pub of_fluid: bool,
+    /// Whether it is one value for a force and for the particles on which it acts: shapes and emitters that leave it out use that of the force.
+    pub shared: bool,
     /// What its words change, if anything, in the defaults of other keys.
     pub presets: &'static [Preset],
 }
@@ -145,21 +145,21 @@ impl Key {
     pub fn preset(&self, word: &str) -> &'static [(&'static str, Value)] {
         self.presets.iter().find(|preset| preset.word == word).map_or(&[], |preset| preset.defaults)
     }
-    /// The same, as a property of the scene's fluid.
+    /// The same, as one value for a force and the shapes and emitters of a scene.
     #[must_use]
-    pub const fn of_fluid(mut self) -> Self {
-        self.of_fluid = true;
+    pub const fn shared(mut self) -> Self {
+        self.shared = true;
         self
     }
     /// A key with a default.
     #[must_use]
     pub const fn new(name: &'static str, kind: Kind, default: Value, about: &'static str) -> Self {
-        Self { name, kind, default: Some(default), about, of_fluid: false, presets: &[] }
+        Self { name, kind, default: Some(default), about, shared: false, presets: &[] }
     }
     /// A key that must be given.
     #[must_use]
     pub const fn required(name: &'static str, kind: Kind, about: &'static str) -> Self {
-        Self { name, kind, default: None, about, of_fluid: false, presets: &[] }
+        Self { name, kind, default: None, about, shared: false, presets: &[] }
     }
 }
 

@@ -144,7 +144,7 @@ fn no_binding_number_is_written_in_rust() {
 }
 
 /// A module may name only what stands before it.
-const ORDER: [&str; 43] = [
+const ORDER: [&str; 44] = [
     "error",
     "settings",
     "links",
@@ -162,6 +162,7 @@ const ORDER: [&str; 43] = [
     "visit",
     "grains",
     "crowds",
+    "cosmology",
     "ewald",
     "sph",
     "component",

@@ -25,6 +25,6 @@ fn mass_images(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) gro
         }
         let f = world.frequency.x;
         // Each of a pair holds half of its potential energy.
-        acceleration[i] += (G * f) * vec4f((6.2831855 * f) * pull, 0.5 * potential);
+        acceleration[i] += (G * expansion() * f) * vec4f((6.2831855 * f) * pull, 0.5 * potential);
     }
 }

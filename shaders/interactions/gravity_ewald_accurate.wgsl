@@ -46,4 +46,4 @@ fn gather(me: Particle, you: Particle, r: vec3f, sum: ptr<function, Sum>) {
     (*sum).potential -= mass * (inverse - rate * p.x);
 }
 
-fn finish(me: Particle, sum: Sum) -> vec4f { return params.g * vec4f(sum.acceleration, sum.potential); }
+fn finish(me: Particle, sum: Sum) -> vec4f { return params.g * expansion() * vec4f(sum.acceleration, sum.potential); }

@@ -16,8 +16,11 @@ pub(crate) use misnamed::misnamed;
 pub(crate) use register::components;
 pub(crate) use registered::registered;
 
+use std::sync::Arc;
+
 use glam::{DVec3, Vec4};
 
+use crate::cosmology::Expansion;
 use crate::crowds::Press;
 use crate::error::Error;
 use crate::floor_plan::FloorPlan;
@@ -285,8 +288,19 @@ pub struct Properties {
     pub has_waves: bool,
     /// The column, a scalar, whose sum over all particles a uniform background neutralizes.
     pub neutralized: Option<&'static str>,
+    /// The expansion of space in whose comoving coordinates it acts.
+    pub expands: Option<Expands>,
     /// A remark for the user before a run.
     pub caution: Option<&'static str>,
+}
+
+/// An expanding space, and the comoving mean density with which it expands as it does.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Expands {
+    /// Its expansion.
+    pub expansion: Arc<Expansion>,
+    /// The comoving mean density of matter \[mass / length³\].
+    pub density: f64,
 }
 
 /// How a barostat changes the box.

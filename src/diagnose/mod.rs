@@ -6,6 +6,7 @@ mod baths;
 mod births;
 mod bonds;
 mod contradictions;
+mod cosmology;
 mod crowds;
 mod far;
 mod flow;
@@ -140,6 +141,7 @@ impl Judged {
         remarks.extend(grains::remarks(setup));
         remarks.extend(crowds::remarks(setup)?);
         remarks.extend(softenings::all_zero(setup));
+        remarks.extend(cosmology::remarks(setup, steps));
         let verdict = Verdict::of(setup, &build, steps).await?;
         Ok(Self { verdict, start, lines, remarks })
     }

@@ -15,8 +15,9 @@ use rayon::prelude::*;
 
 use super::split::Split;
 use super::waves::{Strength, Waves, wave_at};
+use crate::cosmology::Expansion;
 use crate::error::Error;
-use crate::kernel::{ACCELERATION, Host, Kernel, Name, POSITION, Problem, Side, Threads, World};
+use crate::kernel::{ACCELERATION, Host, Kernel, Name, POSITION, Problem, Side, Source, Threads, World};
 use crate::visit::Group;
 
 /// h = s^(−1/2) − (2 / L) P(1 − (2 / L)² q) and its first three derivatives by r², with s = r² + ε², and q = s or r²; 0 from half a side on.
@@ -93,11 +94,31 @@ impl Strength for Masses {
     }
 }
 
+/// The file of the factor by which gravity grows where space expands, and its constants.
+#[must_use]
+pub fn growing(expansion: Option<&Arc<Expansion>>) -> (Source, Vec<(&'static str, f64)>) {
+    match expansion {
+        Some(expansion) => (crate::shader!("law/expansion.wgsl"), expansion.constants()),
+        None => (crate::shader!("law/no_expansion.wgsl"), Vec::new()),
+    }
+}
+
+/// A constant of gravity with that factor, at the time of a world.
+#[must_use]
+pub fn grown(g: f64, expansion: Option<&Expansion>, world: &World) -> f64 {
+    g * expansion.map_or(1.0, |expansion| expansion.scale_factor(world.time))
+}
+
 /// What comes beside the law between two: the structure factor, and what each particle makes of it.
 ///
 /// # Errors
 /// When a shader does not compile.
-pub fn kernels(split: &Split, g: f64, problem: &Problem) -> Result<[Kernel; 2], Error> {
+pub fn kernels(
+    split: &Split,
+    g: f64,
+    expansion: Option<&Arc<Expansion>>,
+    problem: &Problem,
+) -> Result<[Kernel; 2], Error> {
     let [vector, structure, parts] = ["gravity_wave", "structure", "structure_parts"].map(Name::from);
     let waves = Waves { vectors: Arc::new(split.waves()), vector, structure, parts };
     let count = problem.capacity;
@@ -110,11 +131,16 @@ pub fn kernels(split: &Split, g: f64, problem: &Problem) -> Result<[Kernel; 2], 
     let factor = [&files[..], &[crate::shader!("ewald/masses.wgsl")]].concat();
     let structure = waves.structure(&factor, Masses, problem)?;
     let alone = 2.0 * split.taper(1.0)[0];
-    let files = [&files[..], &[crate::shader!("ewald/mass_images.wgsl")]].concat();
+    let (grows, constants) = growing(expansion);
+    let files = [&files[..], &[crate::shader!("ewald/mass_images.wgsl"), grows]].concat();
     let work = u64::from(count) * u64::from(waves.number());
-    let pass = waves.pass(&files, &[("G", g), ("SELF", alone)], Threads::new(count), work)?;
+    let pass =
+        waves.pass(&files, &[&[("G", g), ("SELF", alone)], &constants[..]].concat(), Threads::new(count), work)?;
     let mut images = waves.kernel(vec![pass]);
-    images.reference = Some(Arc::new(move |host| add_waves(g, alone, &waves.vectors, host)));
+    let expansion = expansion.cloned();
+    images.reference = Some(Arc::new(move |host| {
+        add_waves(grown(g, expansion.as_deref(), &host.world()), alone, &waves.vectors, host)
+    }));
     Ok([structure, images])
 }
 

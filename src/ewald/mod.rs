@@ -7,6 +7,6 @@ mod split;
 mod waves;
 
 pub use charges::Charges;
-pub use masses::{fits, group, kernels, pair};
+pub use masses::{fits, group, growing, grown, kernels, pair};
 pub use split::{FITTED, LEAST, Split};
 pub use waves::{CHARGE_WAVE, NUMBER};

@@ -17,10 +17,10 @@ use crate::visit::Loads;
 /// The keys in a scene.
 pub const KEYS: &[Key] = &[
     Key::new("regime", Kind::Choice(&["general", "viscous"]), Value::Text(Cow::Borrowed("general")), "\"viscous\", for flows between walls without a surface, at Reynolds numbers up to some 100: other defaults of kernel, support, density_by, diffusion, negative_pressure, viscosity_form, walls and wall_mass; keys that are given win").with_presets(REGIMES),
-    Key::new("density", Kind::Positive, Value::Number(1000.0), "the density at rest [mass / length³, or mass / length² in two dimensions]").of_fluid(),
-    Key::required("spacing", Kind::Positive, "the spacing of particles at rest, on a cubic lattice [length]").of_fluid(),
-    Key::new("support", Kind::Positive, Value::Number(2.0), "the support radius of the kernel [spacings]").of_fluid(),
-    Key::new("kernel", Kind::Choice(Smoothing::NAMES), Value::Text(Cow::Borrowed("cubic")), "the smoothing kernel: the cubic spline, or Wendland's C2").of_fluid(),
+    Key::new("density", Kind::Positive, Value::Number(1000.0), "the density at rest [mass / length³, or mass / length² in two dimensions]").shared(),
+    Key::required("spacing", Kind::Positive, "the spacing of particles at rest, on a cubic lattice [length]").shared(),
+    Key::new("support", Kind::Positive, Value::Number(2.0), "the support radius of the kernel [spacings]").shared(),
+    Key::new("kernel", Kind::Choice(Smoothing::NAMES), Value::Text(Cow::Borrowed("cubic")), "the smoothing kernel: the cubic spline, or Wendland's C2").shared(),
     Key::new("solver", Kind::Choice(&["wcsph", "dfsph"]), Value::Text(Cow::Borrowed("wcsph")), "pressure by an equation of state, or solved for (Bender & Koschier 2015)"),
     Key::new("sound_speed", Kind::NotNegative, Value::Number(0.0), "wcsph: the speed of sound: ten times the fastest flow makes the density vary by 1 % [length / time]"),
     Key::new("gamma", Kind::Count, Value::Number(7.0), "the exponent of Tait's equation p = (ρ₀ c² / γ) ((ρ/ρ₀)^γ − 1), 2 to 15"),
@@ -31,7 +31,7 @@ pub const KEYS: &[Key] = &[
     Key::new("xsph", Kind::NotNegative, Value::Number(0.0), "ε of XSPH: the fraction by which velocities move towards the mean of the neighbours in each step (Schechter & Bridson 2012), which takes energy and angular momentum, whatever the resolution"),
     Key::new("wall_friction", Kind::NotNegative, Value::Number(1.0), "the part of both viscosities that acts at walls; 0: free slip"),
     Key::new("walls", Kind::Choice(WALLS), Value::Text(Cow::Borrowed("mirror")), "the pressure of walls: that of the particle at the wall (Akinci et al. 2012), or that of the fluid around them (Adami, Hu & Adams 2012, as if they were not accelerated)"),
-    Key::new("wall_mass", Kind::Choice(WALL_MASS), Value::Text(Cow::Borrowed("sampled")), "the mass of wall particles: from their spacing, for one layer (Akinci et al. 2012), or that of a lattice particle, for several layers").of_fluid(),
+    Key::new("wall_mass", Kind::Choice(WALL_MASS), Value::Text(Cow::Borrowed("sampled")), "the mass of wall particles: from their spacing, for one layer (Akinci et al. 2012), or that of a lattice particle, for several layers").shared(),
     Key::new("density_by", Kind::Choice(DENSITY_BY), Value::Text(Cow::Borrowed("summation")), "how density is computed: by summation over neighbours, or by the continuity equation (Monaghan 1994), which has no deficit at free surfaces"),
     Key::new("diffusion", Kind::NotNegative, Value::Number(0.0), "density_by = \"continuity\": the density diffusion δ, for instance 0.1 (Molteni & Colagrossi 2009)"),
     Key::new("weight", Kind::Vector, Value::Vector(DVec3::ZERO), "the gravitational acceleration that another force applies, so that density diffusion (Fourtakas et al. 2019) and walls preserve hydrostatic equilibrium [length / time²]"),

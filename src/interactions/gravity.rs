@@ -6,7 +6,8 @@ use std::sync::Arc;
 use glam::{DVec3, DVec4};
 
 use super::{Component, Law, Over, Problem, Properties, Stage, evaluate, numbered, params};
-use crate::component::Largest;
+use crate::component::{Expands, Largest};
+use crate::cosmology::{Cosmology, Expansion, scale_factor};
 use crate::error::Error;
 use crate::ewald::{self, FITTED, LEAST, Split};
 use crate::kernel::{Bounds, Column, Kind as Element, Plan, Scalar, Side, Source, World};
@@ -16,7 +17,7 @@ use crate::visit::{Particle, Group};
 
 /// The keys in a scene.
 pub const KEYS: &[Key] = &[
-    Key::new("g", Kind::Number, Value::Number(1.0), "the gravitational constant [length³ / mass / time²]"),
+    Key::new("g", Kind::Number, Value::Number(1.0), "the gravitational constant [length³ / mass / time²]").shared(),
     Key::new("softening", Kind::NotNegative, Value::Number(0.0), "the Plummer softening ε; the spline ends at 2.8 ε, so for PKDGRAV's own ε (whose spline ends at 2 ε) set 2/2.8 of it [length]"),
     Key::new("kernel", Kind::Choice(&["plummer", "spline"]), Value::Text(Cow::Borrowed("plummer")), "the softening kernel"),
     Key::new("individual_softening", Kind::Flag, Value::Flag(false), "whether each particle has a softening of its own, the column `softening_length`: the larger one of a pair counts, and `softening` is the largest there may be"),
@@ -26,18 +27,41 @@ pub const KEYS: &[Key] = &[
     Key::new("images", Kind::Choice(&["nearest", "ewald"]), Value::Text(Cow::Borrowed("nearest")), "in a periodic box: nearest images only, or Ewald sums over all images on a neutralizing background, in a cube (Ewald 1921)"),
     Key::new("accuracy", Kind::Positive, Value::Number(FITTED), "with images = \"ewald\": the error of the force of a mass M, root mean square over the cube, 1e-10 or more; more than 1.5e-4 changes nothing, rounding on a device adds some 1e-5, and a tree the error of its groups [G M / side²]"),
     Key::new("multipoles", Kind::Choice(&["quadrupole", "monopole"]), Value::Text(Cow::Borrowed("quadrupole")), "the multipole order of far groups"),
+    Key::new("hubble", Kind::NotNegative, Value::Number(0.0), "above 0: space expands, with Hubble's constant H₀ of today; positions are comoving and time is supercomoving (Martel & Shapiro 1998): velocities are a² dx/dT of the physical time T [1 / time]").shared(),
+    Key::new("omega_matter", Kind::Positive, Value::Number(0.3), "where space expands: the density of matter today, of the critical one").shared(),
+    Key::new("omega_lambda", Kind::NotNegative, Value::Number(0.7), "where space expands: that of the cosmological constant; what both lack of 1 is curvature").shared(),
+    Key::new("redshift", Kind::NotNegative, Value::Number(49.0), "where space expands: the redshift z = 1 / a − 1 at the time 0").shared(),
 ];
 
 /// `gravity`: a = G m r / (r² + ε²)^(3/2), or the spline of GADGET, which is exact beyond 2.8 ε
 /// (PKDGRAV has the same spline, and calls half of its support ε). With softenings of particles the larger one of a pair counts, as in GADGET.
 #[derive(Clone)]
-pub struct Gravity(Settings);
+pub struct Gravity(Settings, Option<Result<Arc<Expansion>, String>>);
+
+/// The expansion of space by settings that have its keys; none where it does not expand.
+///
+/// # Errors
+/// As [`Cosmology::new`] and [`Expansion::new`].
+pub fn expansion(settings: &Settings) -> Result<Option<Expansion>, Error> {
+    let [hubble, matter, lambda, redshift] = EXPANSION.map(|key| settings.number(key));
+    if hubble <= 0.0 {
+        return Ok(None);
+    }
+    Ok(Some(Expansion::new(Cosmology::new(hubble, matter, lambda)?, scale_factor(redshift))?))
+}
+
+/// The keys of the expansion of space.
+const EXPANSION: [&str; 4] = ["hubble", "omega_matter", "omega_lambda", "redshift"];
 
 impl Gravity {
     /// From checked settings.
     #[must_use]
     pub fn new(settings: &Settings) -> Self {
-        Self(settings.clone())
+        Self(settings.clone(), expansion(settings).map(|all| all.map(Arc::new)).map_err(|why| why.to_string()).transpose())
+    }
+    /// The expansion of space, where it expands.
+    fn expansion(&self) -> Option<&Arc<Expansion>> {
+        self.1.as_ref()?.as_ref().ok()
     }
     /// The visit, where groups nearer than `core` must not be approximated.
     fn over(&self, core: f64) -> Over {
@@ -83,6 +107,27 @@ impl Gravity {
                  away, within a group. Say {all}over = \"pairs\"",
                 problem.bounds
             )));
+        }
+        Ok(())
+    }
+    /// Whether there is a law where space expands as it is set.
+    fn check_expansion(&self) -> Result<(), Error> {
+        let Some(expansion) = &self.1 else { return Ok(()) };
+        if let Err(why) = expansion {
+            return Err(Error::Setting { key: "hubble", why: format!("gravity where space expands: {why}") });
+        }
+        if !self.all_images() {
+            let why = format!(
+                "gravity has hubble = {}, an expanding space, and images = \"nearest\", which do not take the mean density off: set images = \"ewald\", in a \
+                 periodic cube, or hubble = 0",
+                self.0.number("hubble")
+            );
+            return Err(Error::Setting { key: "hubble", why });
+        }
+        if self.0.number("alpha") > 0.0 {
+            let why = "gravity has alpha above 0 beside hubble: where space expands, the last acceleration has another factor; leave alpha out and choose theta"
+                .to_owned();
+            return Err(Error::Setting { key: "alpha", why });
         }
         Ok(())
     }
@@ -138,6 +183,7 @@ impl Component for Gravity {
         if self.is_individual() { vec![softening] } else { Vec::new() }
     }
     fn check(&self, _: &Bounds) -> Result<(), Error> {
+        self.check_expansion()?;
         if !self.is_individual() {
             return Ok(());
         }
@@ -178,17 +224,22 @@ impl Component for Gravity {
                 (crate::shader!("interactions/gravity_ewald_accurate.wgsl"), distant)
             };
             let frequency = |world: &World| world.bounds.frequency().x;
+            let (grows, constants) = ewald::growing(self.expansion());
+            let (near, distant) = (self.expansion().cloned(), self.expansion().cloned());
             let rule = move |_: &Particle, you: &Particle, r, world: &World| {
+                let g = ewald::grown(g, near.as_deref(), world);
                 ewald::pair(&split, g * you.mass, softening, r, frequency(world))
             };
             let far = move |_: &Particle, you: &Group, r, world: &World| {
+                let g = ewald::grown(g, distant.as_deref(), world);
                 if quadrupole {
                     ewald::group(&beyond, g, you, softening, r, frequency(world))
                 } else {
                     ewald::pair(&beyond, g * you.mass, softening, r, frequency(world))
                 }
             };
-            Law::attracting("gravity_ewald", self.over(0.0), files, values, rule, far).of_all_images()
+            let law = Law::attracting("gravity_ewald", self.over(0.0), files, values, rule, far).of_all_images();
+            Law { beside: vec![grows], constants, ..law }
         } else if self.0.text("kernel") == "spline" {
             let h = SUPPORT * softening;
             let files = (
@@ -215,14 +266,19 @@ impl Component for Gravity {
             why: "it is the key `softening` of the force, which must be as large",
         };
         let largest = if self.is_individual() { vec![limit] } else { Vec::new() };
-        Properties { ignores_massless: true, largest, ..Properties::default() }
+        let dissipates = if self.1.is_some() { vec!["expansion"] } else { Vec::new() };
+        let expands = self.expansion().map(|expansion| Expands {
+            expansion: Arc::clone(expansion),
+            density: expansion.cosmology.mean_density(self.0.number("g")),
+        });
+        Properties { ignores_massless: true, largest, dissipates, expands, ..Properties::default() }
     }
     fn stage(&self, stage: Stage, plan: &mut Plan, problem: &Problem) -> Result<(), Error> {
         let Stage::Evaluate { earlier } = stage else { return Ok(()) };
         self.fits(problem)?;
         evaluate(self.laws(), earlier, plan, problem)?;
         if self.all_images() {
-            let [structure, images] = ewald::kernels(&self.split(), self.0.number("g"), problem)?;
+            let [structure, images] = ewald::kernels(&self.split(), self.0.number("g"), self.expansion(), problem)?;
             let mine = structure.tables.iter().find(|(name, _)| name == "gravity_wave").map(|(_, words)| words);
             let first = plan.table("gravity_wave");
             if let (Some(mine), Some(first)) = (mine, first)

@@ -99,6 +99,7 @@ register! {
     rdf
     structure_factor
     diffusion
+    expansion
     probe
 }
 

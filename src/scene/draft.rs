@@ -7,7 +7,7 @@ use super::files::Files;
 use super::report::{Fault, Report};
 use super::resolved::Writer;
 use super::walk::Table;
-use super::{bounds, column, fluid, force, motion, output, particles, simulation, solver};
+use super::{bounds, column, force, motion, output, particles, shared, simulation, solver};
 
 /// A scene with more particles and links than this is checked first: creating them takes seconds and memory.
 const LARGE: f64 = 300_000.0;
@@ -16,7 +16,7 @@ const LARGE: f64 = 300_000.0;
 /// than `most` particles are refused at their entry.
 pub(super) fn read(sections: &[(&'static str, Table<'_>)], files: &Files, most: u32, report: &mut Report) -> bool {
     let all = |name: &'static str| sections.iter().filter(move |(n, _)| *n == name).map(|(_, table)| table);
-    let said = fluid::said(all("force"));
+    let said = shared::said(all("force"));
     // Errors are reported once it is known that the scene is large; keys of columns are then known, too.
     let amounts: Vec<_> =
         all("particles").map(|table| (table, particles::amount(table, &said, &[], &mut Report::default()))).collect();
@@ -27,7 +27,7 @@ pub(super) fn read(sections: &[(&'static str, Table<'_>)], files: &Files, most: 
     }
     let one = |name: &'static str| all(name).next();
     let mut out = Writer::default();
-    let simulation = simulation::read(one("simulation"), report);
+    let simulation = simulation::read(one("simulation"), all("force"), report);
     solver::read(one("solver"), &mut out, report);
     let bounds = bounds::read(one("box"), &mut out, report);
     let mut motions = Vec::new();

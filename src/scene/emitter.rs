@@ -9,9 +9,9 @@ use crate::state::State;
 
 use super::color;
 use super::column;
-use super::fluid;
 use super::report::{Fault, Report};
 use super::resolved::Writer;
+use super::shared;
 use super::tree::Entry;
 use super::walk::Table;
 
@@ -40,7 +40,7 @@ pub(super) fn read(
     report: &mut Report,
 ) -> Option<Emitted> {
     let faults = report.len();
-    let entries = fluid::completed(table, fluid::emitter_keys(table), said);
+    let entries = shared::completed(table, shared::emitter_keys(table), said);
     let table = &Table { entries: &entries, ..table.clone() };
     let columns = column::givable(known);
     let names: Vec<&str> = OWN.iter().copied().chain(columns.iter().map(|column| column.name.as_ref())).collect();

@@ -41,6 +41,7 @@ mod report;
 mod resolved;
 mod scale;
 mod sections;
+mod shared;
 mod simulation;
 mod solver;
 mod source;
@@ -77,6 +78,8 @@ pub use output::Output;
 pub use own::Own;
 #[doc(hidden)]
 pub use sections::{SECTIONS, Section};
+#[doc(hidden)]
+pub use shared::Shared;
 pub use source::Source;
 
 use files::Files;
@@ -136,9 +139,8 @@ pub struct Scene {
     pub files: Vec<PathBuf>,
     /// Remarks on a valid scene, for instance that `until` is not a whole number of steps.
     pub remarks: Vec<String>,
-    /// The keys of particles and emitters that have their values from the force of the fluid, in the form of overrides:
-    /// `particles.0.density`.
-    pub of_fluid: Vec<String>,
+    /// The keys of particles and emitters that have their values from forces.
+    pub shared: Vec<Shared>,
 }
 
 /// Particles that came from one entry of the scene, or one part of them.
@@ -253,7 +255,7 @@ fn read(sections: &[(&'static str, Table<'_>)], files: &Files, options: &Options
     let mut out = Writer::default();
     out.0.push('\n');
     out.comment(source::RESOLVED);
-    let simulation = simulation::read(one("simulation"), report);
+    let simulation = simulation::read(one("simulation"), all("force"), report);
     simulation.write(&mut out);
     let solver = solver::read(one("solver"), &mut out, report);
     let bounds = bounds::read(one("box"), &mut out, report);
@@ -286,7 +288,7 @@ fn read(sections: &[(&'static str, Table<'_>)], files: &Files, options: &Options
             fault.note("help: add\n\n         [[particles]]\n         shape = \"plummer\"\n         count = 1000"),
         );
     }
-    let said = fluid::said(all("force"));
+    let said = shared::said(all("force"));
     for table in all("particles") {
         let start = ids(&particles);
         let room = options.most_particles.saturating_sub(start);
@@ -375,7 +377,7 @@ fn read(sections: &[(&'static str, Table<'_>)], files: &Files, options: &Options
         column::of_picture(table, &picture, &columns, report);
     }
 
-    let remarks = simulation.remark.iter().cloned().chain(fluid::contradictions(sections));
+    let remarks = simulation.remark.iter().cloned().chain(shared::contradictions(sections));
     let remarks = remarks
         .chain(force::unused(sections, &particles))
         .chain(render::styles::remark(&picture))
@@ -405,7 +407,7 @@ fn read(sections: &[(&'static str, Table<'_>)], files: &Files, options: &Options
         resolved: out.0,
         files: Vec::new(),
         remarks,
-        of_fluid: fluid::left(sections),
+        shared: shared::left(sections),
     };
     if report.len() == 0 {
         measure::check(&mut scene, &of_measures, report);

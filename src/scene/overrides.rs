@@ -5,7 +5,8 @@ use super::sections::SECTIONS;
 use super::tree::{self, Data, Entry, Node};
 
 /// Keys that exclude one another: setting one from the command line removes the others of the scene.
-const ALTERNATIVES: &[&[&str]] = &[&["steps", "until"], &["file", "shape", "bodies"], &["kind", "wgsl"]];
+const ALTERNATIVES: &[&[&str]] =
+    &[&["steps", "until", "until_redshift"], &["file", "shape", "bodies"], &["kind", "wgsl"]];
 /// The longest path; `particles.0.bodies.0.position.0` has 6 parts.
 const LONGEST_PATH: usize = 8;
 

@@ -16,7 +16,7 @@ const fn own(name: &'static str, default: &'static str, about: &'static str) -> 
 }
 
 pub(super) const SIMULATION: &[Own] = &[
-    own("steps", "or until", "how many steps"),
+    own("steps", "or until, or until_redshift", "how many steps"),
     own(
         "until",
         "or steps",

@@ -17,10 +17,10 @@ use super::color;
 use super::column;
 use super::copies::{self, COPIES};
 use super::files::Files;
-use super::fluid;
 use super::held;
 use super::report::{Fault, Place, Report};
 use super::resolved::{self, Writer};
+use super::shared;
 use super::tree::{Data, Entry};
 use super::value;
 use super::walk::{self, Table};
@@ -176,7 +176,7 @@ fn from_shape(
     let name = walk::choice(entry, "shape", &names, report)?;
     let shape = SHAPES.iter().find(|s| s.name == name)?;
     let faults = report.len();
-    let entries = fluid::completed(table, shape.keys, said);
+    let entries = shared::completed(table, shape.keys, said);
     let table = &Table { entries: &entries, ..table.named(format!("{} {name}", table.name)) };
     let mut settings = table.settings(shape.keys, &beside("shape", columns), report);
     let shown = located(table, shape, files, &mut settings, report);
@@ -241,7 +241,7 @@ pub(super) fn amount(table: &Table<'_>, said: &[Entry], columns: &[&Column], rep
         SHAPES.iter().find(|s| s.name == name)
     };
     let Some(shape) = shape(report) else { return Amount::default() };
-    let entries = fluid::completed(table, shape.keys, said);
+    let entries = shared::completed(table, shape.keys, said);
     let table = Table { entries: &entries, ..table.named(format!("{} {}", table.name, shape.name)) };
     (shape.amount)(&table.settings(shape.keys, &beside("shape", columns), report))
 }

@@ -110,7 +110,7 @@ fn divisor(a: u64, b: u64) -> u64 {
 type Values = Vec<(&'static str, String)>;
 
 fn has_spacing(keys: &[Key]) -> bool {
-    keys.iter().any(|key| key.of_fluid && key.name == "spacing")
+    keys.iter().any(|key| key.shared && key.name == "spacing")
 }
 
 fn number(value: &Value) -> Option<f64> {
@@ -136,6 +136,10 @@ fn shaped(resolution: Resolution, table: &Table, [factor, narrower]: [f64; 2]) -
     let (counts, least, periods): (Vec<f64>, u32, f64) = match resolution {
         Resolution::Count { key, least } => {
             return at(table, key).map(|count| (key, whole(count * factor, least))).into_iter().collect();
+        }
+        Resolution::Cube { key, least } => {
+            let part = factor.cbrt();
+            return at(table, key).map(|count| (key, whole(count * part, least))).into_iter().collect();
         }
         Resolution::Own => return Values::new(),
         Resolution::Spacing => return spaced(table, narrower),

@@ -1,11 +1,14 @@
 //! `[simulation]`: the time step, the number of steps and the integrator.
 
 use crate::integrators::{self, INTEGRATORS, Integrator};
+use crate::interactions::gravity;
 use crate::kernel::{AdaptiveStep, Precision};
 use crate::settings::{Key, Kind, Settings, Value};
 
 use super::report::{Fault, Place, Report};
 use super::resolved::Writer;
+use super::shared;
+use super::tree::Entry;
 use super::value;
 use super::walk::{self, Table};
 
@@ -47,7 +50,7 @@ pub(super) const KEYS: &[Key] = &[
 ];
 /// The keys of adaptive steps only.
 const ADAPTIVE: [&str; 3] = ["dt_min", "dt_before", "cfl"];
-pub(super) const OWN: &[&str] = &["steps", "until", "integrator"];
+pub(super) const OWN: &[&str] = &["steps", "until", "until_redshift", "integrator"];
 
 pub(super) struct Simulation {
     pub(super) dt: f64,
@@ -66,7 +69,11 @@ pub(super) struct Simulation {
     pub(super) remark: Option<String>,
 }
 
-pub(super) fn read(table: Option<&Table<'_>>, report: &mut Report) -> Simulation {
+pub(super) fn read<'a>(
+    table: Option<&Table<'_>>,
+    forces: impl Iterator<Item = &'a Table<'a>> + Clone,
+    report: &mut Report,
+) -> Simulation {
     let integrator = INTEGRATORS.iter().find(|i| i.name == "leapfrog").unwrap_or(&INTEGRATORS[0]);
     let integrator_settings = Settings::defaults(integrator.keys);
     let mut simulation = Simulation {
@@ -101,7 +108,7 @@ pub(super) fn read(table: Option<&Table<'_>>, report: &mut Report) -> Simulation
         simulation.dt = settings.number("dt");
     }
     simulation.precision = Precision::named(settings.text("precision")).unwrap_or_default();
-    let length = table.one_of(&["steps", "until"], report);
+    let length = table.one_of(&["steps", "until", "until_redshift"], report);
     if let Some(entry) = length.filter(|e| e.key == "steps") {
         simulation.steps = walk::whole_from_one(entry, report).unwrap_or(1);
         #[expect(clippy::cast_precision_loss, reason = "a comparison of magnitudes")]
@@ -110,8 +117,12 @@ pub(super) fn read(table: Option<&Table<'_>>, report: &mut Report) -> Simulation
         }
     }
     simulation.until = simulation.steps as f64 * simulation.dt;
-    if let Some(entry) = length.filter(|e| e.key == "until") {
-        let until = value::number(&entry.node, "until", Kind::Positive, &Kind::Positive.wanted(), report);
+    if let Some(entry) = length.filter(|e| e.key != "steps") {
+        let until = if entry.key == "until" {
+            value::number(&entry.node, "until", Kind::Positive, &Kind::Positive.wanted(), report)
+        } else {
+            until_redshift(entry, forces, report)
+        };
         if let (Some(until), true) = (until, has_dt) {
             match steps(until, simulation.dt) {
                 Some(steps) => {
@@ -126,11 +137,9 @@ pub(super) fn read(table: Option<&Table<'_>>, report: &mut Report) -> Simulation
                         }
                     }
                 }
-                None => report.push(Fault::at(&entry.node.place, "`until` is too large").label(format!(
-                    "{:.3e} steps of dt = {:?}, at most {MOST_STEPS}",
-                    until / simulation.dt,
-                    simulation.dt
-                ))),
+                None => report.push(Fault::at(&entry.node.place, format!("`{}` is too far", entry.key)).label(
+                    format!("{:.3e} steps of dt = {:?}, at most {MOST_STEPS}", until / simulation.dt, simulation.dt),
+                )),
             }
         }
     }
@@ -145,6 +154,34 @@ pub(super) fn read(table: Option<&Table<'_>>, report: &mut Report) -> Simulation
         });
     }
     simulation
+}
+
+/// The time at which the universe of the forces has a redshift.
+fn until_redshift<'a>(
+    entry: &Entry,
+    forces: impl Iterator<Item = &'a Table<'a>> + Clone,
+    report: &mut Report,
+) -> Option<f64> {
+    let redshift = value::number(&entry.node, "until_redshift", Kind::Number, "a redshift above -1", report)?;
+    let place = &entry.node.place;
+    let universe = shared::owner(forces, "hubble").map(|(_, table, keys)| {
+        // What is wrong with the force is reported where it is read.
+        gravity::expansion(&table.settings(keys, &["kind"], &mut Report::default()))
+    });
+    let Some(Ok(Some(expansion))) = universe else {
+        let fault = Fault::at(place, "`until_redshift` needs a space that expands");
+        report.push(fault.label("give the force gravity a valid `hubble` above 0, or this run `until` or `steps`"));
+        return None;
+    };
+    let time = if redshift > -1.0 { expansion.time_at(redshift) } else { f64::NAN };
+    if time > 0.0 && time < expansion.end() {
+        return Some(time);
+    }
+    let start = 1.0 / expansion.start - 1.0;
+    let fault =
+        Fault::at(place, format!("`until_redshift` is {redshift:?}, and the run starts at redshift {start:.6}"));
+    report.push(fault.label("choose one below that of the start, and above -1"));
+    None
 }
 
 /// The adaptive time step, if steps are adaptive.

@@ -44,7 +44,7 @@ pub const KEYS: &[Key] = &[
         Value::Number(0.0),
         "for a fluid: the spacing of the cubic lattice, of which a layer is emitted every spacing / speed [length]",
     )
-    .of_fluid(),
+    .shared(),
     Key::new(
         SPRAY,
         Kind::NotNegative,
@@ -63,7 +63,7 @@ pub const KEYS: &[Key] = &[
         Value::Number(1000.0),
         "of a fluid at rest, as in the force [mass / length³, or mass / length²]",
     )
-    .of_fluid(),
+    .shared(),
     Key::new(
         "mass",
         Kind::NotNegative,

@@ -8,6 +8,7 @@ mod chains;
 pub mod cloth;
 pub mod clusters;
 pub mod copies;
+mod cosmological;
 pub mod crowd;
 pub mod crystal;
 pub mod disk;
@@ -84,6 +85,13 @@ pub enum Resolution {
         /// Whether it is as long as its number of spacings, so that it fills a periodic box; else it is one spacing shorter.
         periodic: bool,
     },
+    /// A count along each side of a cube, which keeps its length.
+    Cube {
+        /// The key.
+        key: &'static str,
+        /// The least.
+        least: u32,
+    },
     /// `spacing` alone, which a fluid has for all of its shapes.
     Spacing,
     /// None: another number of particles is another thing.
@@ -103,6 +111,7 @@ pub const SHAPES: &[Shape] = &[
     disk::DISK,
     clusters::CLUSTERS,
     lattice::LATTICE,
+    cosmological::COSMOLOGICAL,
     crystal::CRYSTAL,
     block::BLOCK,
     drop::DROP,

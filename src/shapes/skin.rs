@@ -12,34 +12,34 @@ use crate::state::State;
 
 pub(super) const SPACING: Key =
     Key::required("spacing", Kind::Positive, "the particle spacing; left out: that of the force `fluid` [length]")
-        .of_fluid();
+        .shared();
 pub(super) const DENSITY: Key = Key::new(
     "density",
     Kind::Positive,
     Value::Number(1000.0),
     "the density at rest of the fluid, as in the force [mass / length³, or mass / length²]",
 )
-.of_fluid();
+.shared();
 pub(super) const SUPPORT: Key = Key::new(
     "support",
     Kind::Positive,
     Value::Number(2.0),
     "the support radius of the fluid's kernel, as in the force [spacings]",
 )
-.of_fluid();
+.shared();
 pub(super) const KERNEL: Key = Key::new(
     "kernel",
     Kind::Choice(Smoothing::NAMES),
     Value::Text(Cow::Borrowed("cubic")),
     "the smoothing kernel of the fluid, as in the force",
 )
-.of_fluid();
+.shared();
 pub(super) const WALL_MASS: Key = Key::new(
     "wall_mass",
     Kind::Choice(&["sampled", "lattice"]),
     Value::Text(Cow::Borrowed("sampled")),
     "the mass of wall particles, as in the force: sampled walls stand at the gap that keeps the fluid at rest, lattice walls continue its lattice",
-).of_fluid();
+).shared();
 pub(super) const LAYERS: Key = Key::new(
     "layers",
     Kind::Whole,

@@ -4,7 +4,7 @@ use super::stage::Stage;
 use crate::component::Component;
 use crate::kernel::Backend;
 use crate::render::KEYS;
-use crate::scene::written;
+use crate::scene::{Shared, written};
 use crate::settings::{Key, Value};
 
 /// The keys of a picture that the place of a view gives, or its camera.
@@ -16,14 +16,13 @@ impl<B: Backend> Stage<B> {
         let mut changes = Vec::new();
         let start = self.start.forces.iter().map(|force| Component::settings(&**force));
         for (place, ((_, now), before)) in self.simulation.settings().iter().zip(start).enumerate() {
-            let makes_fluid = self.start.forces.get(place).is_some_and(|force| force.properties().makes_fluid);
             for (now, before) in now.iter().zip(&before).filter(|(now, before)| now.value != before.value) {
                 let table = now.table.map_or(String::new(), |table| format!("{table}."));
                 changes.push(format!("force.{place}.{table}{}={}", now.name, written(now.kind, now.value)));
-                // Particles that took it from the fluid are as they were.
-                let of_it = |path: &&String| makes_fluid && path.rsplit('.').next() == Some(now.name);
-                let same = |path: &String| format!("{path}={}", written(before.kind, before.value));
-                changes.extend(self.of_fluid.iter().filter(of_it).map(same));
+                // Particles that took it from the force are as they were.
+                let of_it = |key: &&Shared| key.force == place && key.path.rsplit('.').next() == Some(now.name);
+                let same = |key: &Shared| format!("{}={}", key.path, written(before.kind, before.value));
+                changes.extend(self.shared.iter().filter(of_it).map(same));
             }
         }
         let mut picture = |name: &str, value: &Value| {

@@ -9,7 +9,7 @@ use crate::error::Error;
 use crate::kernel::{Array, Backend, Column, Kind, POSITION, Shape};
 use crate::render::{Camera, Color, Image, KEYS, Live, PROJECTED, Picture, Trail};
 use crate::run::Pictures;
-use crate::scene::Scene;
+use crate::scene::{Scene, Shared};
 use crate::settings::{Settings, Value};
 use crate::simulation::{Setup, Simulation};
 use crate::state::State;
@@ -39,8 +39,8 @@ pub struct Stage<B: Backend> {
     /// The picture of the scene.
     pub(super) looks: Settings,
     live: Live,
-    /// The keys of particles and emitters that had their values from the force of the fluid.
-    pub(super) of_fluid: Vec<String>,
+    /// The keys of particles and emitters that had their values from forces.
+    pub(super) shared: Vec<Shared>,
     /// The state by which the picture was framed.
     framed: State,
     /// Whether the camera was moved by hand.
@@ -74,7 +74,7 @@ impl<B: Backend> Stage<B> {
             make,
             pictures,
             looks: scene.picture.clone(),
-            of_fluid: scene.of_fluid.clone(),
+            shared: scene.shared.clone(),
             live,
             framed,
             moved: false,
