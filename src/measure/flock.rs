@@ -185,23 +185,26 @@ impl Series for Flocks {
 }
 
 /// Disjoint sets (Tarjan 1975), by size, with paths halved.
-struct Sets {
+pub(super) struct Sets {
     parent: Vec<usize>,
     size: Vec<u32>,
 }
 
 impl Sets {
-    fn new(count: usize) -> Self {
+    /// Each of so many in a set of its own.
+    pub(super) fn new(count: usize) -> Self {
         Self { parent: (0..count).collect(), size: vec![1; count] }
     }
-    fn root(&mut self, mut i: usize) -> usize {
+    /// The one that stands for the set of another.
+    pub(super) fn root(&mut self, mut i: usize) -> usize {
         while self.parent[i] != i {
             self.parent[i] = self.parent[self.parent[i]];
             i = self.parent[i];
         }
         i
     }
-    fn join(&mut self, i: usize, j: usize) {
+    /// Joins the sets of two.
+    pub(super) fn join(&mut self, i: usize, j: usize) {
         let (i, j) = (self.root(i), self.root(j));
         if i == j {
             return;
@@ -209,6 +212,11 @@ impl Sets {
         let (large, small) = if self.size[i] < self.size[j] { (j, i) } else { (i, j) };
         self.parent[small] = large;
         self.size[large] += self.size[small];
+    }
+    /// The size of the set of one.
+    pub(super) fn size(&mut self, i: usize) -> u32 {
+        let root = self.root(i);
+        self.size[root]
     }
     /// The size of each set.
     fn sizes(&self) -> Vec<u32> {

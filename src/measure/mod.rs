@@ -98,6 +98,7 @@ register! {
     tail
     rdf
     structure_factor
+    haloes
     diffusion
     expansion
     probe

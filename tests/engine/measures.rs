@@ -88,7 +88,12 @@ fn tables_have_names_of_their_own_and_rows_as_long_as_their_headers() {
     let radius = motes::Column::new("radius", motes::Kind::Scalar, "length", "");
     state.declare(&radius).expect("a column");
     state.set("radius", Array::Float(vec![0.1; state.len()])).expect("a column");
-    let range = [("range", Value::Number(0.9)), ("largest", Value::Number(9.0)), ("start", Value::Vector(DVec3::ZERO))];
+    let range = [
+        ("range", Value::Number(0.9)),
+        ("largest", Value::Number(9.0)),
+        ("start", Value::Vector(DVec3::ZERO)),
+        ("linking_distance", Value::Number(0.9)),
+    ];
     for measure in MEASURES.iter().filter(|measure| measure.name != "fluid") {
         let sets: Vec<_> =
             range.iter().filter(|(key, _)| measure.keys.iter().any(|k| k.name == *key)).cloned().collect();
@@ -297,6 +302,8 @@ fn what_cannot_be_measured_is_refused() {
             "set z to 0",
         ),
         (refused("rdf", cube, &[range(0.5), ("others", Value::Number(7.0))]), "no particle is of it"),
+        (refused("haloes", Bounds::default(), &[]), "set linking_distance [length]"),
+        (refused("haloes", cube, &[("species", Value::Number(7.0))]), "no particle is of it"),
     ] {
         assert!(text.contains(why), "{text}");
     }

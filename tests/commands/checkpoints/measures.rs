@@ -17,6 +17,7 @@ const SCENE: &str =
 [[measure]]\nkind = \"rdf\"\nrange = 0.8\nbins = 4\n
 [[measure]]\nkind = \"rdf\"\nrange = 0.5\nbins = 2\nevery = \"0.05 time\"\n
 [[measure]]\nkind = \"structure_factor\"\nlargest = 7\nbins = 3\nvectors = 4\nevery = 4\nafter = 0.1\n
+[[measure]]\nkind = \"haloes\"\nlinking_length = 0.8\nmembers = 2\nevery = 4\n
 [[column]]\nname = \"unwrapped\"\nkind = \"vector\"\nrate = \"velocity\"\ninitial = [0, 0, 0]\n
 [[measure]]\nkind = \"diffusion\"\nevery = 4\n
 [[measure]]\nkind = \"probe\"\nstart = [0, 0, 0]\nrange = 0.5\n
@@ -28,7 +29,7 @@ fn tables_have_their_rows_and_go_on_where_a_run_was_stopped() {
     let (code, words) = place.run("box.toml", "out", &[]);
     assert_eq!(code, 0, "{words}");
     assert!(
-        words.contains("energy.csv, thermo.csv, heat_capacity.csv, pressure.csv, rdf.csv, rdf_2.csv, structure_factor.csv, diffusion.csv, probe.csv"),
+        words.contains("energy.csv, thermo.csv, heat_capacity.csv, pressure.csv, rdf.csv, rdf_2.csv, structure_factor.csv, haloes.csv, diffusion.csv, probe.csv"),
         "{words}"
     );
     assert!(words.contains("temperature "), "{words}");
