@@ -1,5 +1,5 @@
 // The scale factor a at the time of the world, with which gravity grows in supercomoving coordinates (Martel & Shapiro 1998). LEFT is the time at
-// which a is infinite, and a⁻¹ᐟ² / y a sum of Chebyshev polynomials of 2 y − 1, with y = (1 − t / LEFT)¹ᐟ⁴, by Clenshaw's recurrence.
+// which a is infinite, and a⁻¹ᐟ² / y a sum of Chebyshev polynomials of 2 y − 1, with y = (1 − t / LEFT)¹ᐟ⁴.
 override LEFT: f32 = 1.0;
 override A_0: f32 = 0.0;
 override A_1: f32 = 0.0;
@@ -31,36 +31,20 @@ override A_26: f32 = 0.0;
 override A_27: f32 = 0.0;
 
 fn expansion() -> f32 {
+    var terms = array<f32, 28>(
+        A_0, A_1, A_2, A_3, A_4, A_5, A_6, A_7, A_8, A_9, A_10, A_11, A_12, A_13,
+        A_14, A_15, A_16, A_17, A_18, A_19, A_20, A_21, A_22, A_23, A_24, A_25, A_26, A_27,
+    );
     let y = sqrt(sqrt(1.0 - world.time / LEFT));
     let x = 2.0 * y - 1.0;
-    let d = 2.0 * x;
-    let b27 = A_27;
-    let b26 = A_26 + d * b27;
-    let b25 = A_25 + (d * b26 - b27);
-    let b24 = A_24 + (d * b25 - b26);
-    let b23 = A_23 + (d * b24 - b25);
-    let b22 = A_22 + (d * b23 - b24);
-    let b21 = A_21 + (d * b22 - b23);
-    let b20 = A_20 + (d * b21 - b22);
-    let b19 = A_19 + (d * b20 - b21);
-    let b18 = A_18 + (d * b19 - b20);
-    let b17 = A_17 + (d * b18 - b19);
-    let b16 = A_16 + (d * b17 - b18);
-    let b15 = A_15 + (d * b16 - b17);
-    let b14 = A_14 + (d * b15 - b16);
-    let b13 = A_13 + (d * b14 - b15);
-    let b12 = A_12 + (d * b13 - b14);
-    let b11 = A_11 + (d * b12 - b13);
-    let b10 = A_10 + (d * b11 - b12);
-    let b9 = A_9 + (d * b10 - b11);
-    let b8 = A_8 + (d * b9 - b10);
-    let b7 = A_7 + (d * b8 - b9);
-    let b6 = A_6 + (d * b7 - b8);
-    let b5 = A_5 + (d * b6 - b7);
-    let b4 = A_4 + (d * b5 - b6);
-    let b3 = A_3 + (d * b4 - b5);
-    let b2 = A_2 + (d * b3 - b4);
-    let b1 = A_1 + (d * b2 - b3);
-    let u = y * (A_0 + (x * b1 - b2));
+    // Clenshaw's recurrence.
+    var one = 0.0;
+    var two = 0.0;
+    for (var n = 27u; n > 0u; n -= 1u) {
+        let next = terms[n] + (2.0 * x * one - two);
+        two = one;
+        one = next;
+    }
+    let u = y * (terms[0] + (x * one - two));
     return 1.0 / (u * u);
 }

@@ -31,6 +31,14 @@ typed! {
         accuracy: f64,
         /// The multipole order of far groups: quadrupole, monopole.
         multipoles: Cow<'static, str>,
+        /// Above 0: space expands, with Hubble's constant H₀ of today; positions are comoving and time is supercomoving (Martel & Shapiro 1998): velocities are a² dx/dT of the physical time T \[1 / time\].
+        hubble: f64,
+        /// Where space expands: the density of matter today, of the critical one.
+        omega_matter: f64,
+        /// Where space expands: that of the cosmological constant; what both lack of 1 is curvature.
+        omega_lambda: f64,
+        /// Where space expands: the redshift z = 1 / a − 1 at the time 0.
+        redshift: f64,
     }
     /// A uniform acceleration field, such as weight.
     Uniform "uniform" uniform() {

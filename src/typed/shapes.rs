@@ -165,6 +165,41 @@ typed! {
         /// The radius at which particles are drawn \[length\]; 0: chosen by the picture.
         particle_size: f64,
     }
+    /// The matter of an expanding universe at a redshift, a periodic cube of particles of one mass in comoving coordinates: a lattice displaced by a random field with the power spectrum of cold dark matter (Eisenstein & Hu 1998), to first or second order (Zel'dovich 1970; Bouchet et al. 1995).
+    Cosmological "cosmological" cosmological(count_per_side: u32, side: f64) {
+        /// Particles along each side of the cube.
+        count_per_side: u32,
+        /// The side of the cube, comoving \[length\].
+        side: f64,
+        /// The gravitational constant; left out: that of the force \[length³ / mass / time²\].
+        g: f64,
+        /// Hubble's constant of today; left out: that of the force \[1 / time\].
+        hubble: f64,
+        /// The density of matter today, of the critical one; left out: that of the force.
+        omega_matter: f64,
+        /// That of the cosmological constant; left out: that of the force.
+        omega_lambda: f64,
+        /// The redshift of the particles; left out: that of the force.
+        redshift: f64,
+        /// The root mean square of the density contrast in balls of 8 Mpc/h today, in linear theory.
+        sigma_8: f64,
+        /// N of the primordial power spectrum k^n.
+        spectral_index: f64,
+        /// The part of omega_matter that is baryons, for the power spectrum.
+        omega_baryon: f64,
+        /// Hubble's constant in 100 km/s/Mpc, for the power spectrum.
+        h: f64,
+        /// The length of 1 Mpc/h \[length\].
+        megaparsec: f64,
+        /// The order of the displacements: "first" for those of Zel'dovich: second, first.
+        order: Cow<'static, str>,
+        /// Seed of the random numbers.
+        seed: u64,
+        /// The position of the centre \[length\].
+        center: DVec3,
+        /// The radius at which particles are drawn \[length\]; 0: chosen by the picture.
+        particle_size: f64,
+    }
     /// A crystal of a number density: cubic, body-centred, face-centred or diamond, with velocities at a temperature.
     Crystal "crystal" crystal(cells: DVec3, density: f64) {
         /// Unit cells along x, y and z: three whole numbers, 1 or above.

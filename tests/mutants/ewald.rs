@@ -25,7 +25,7 @@ fn cube() -> Bounds {
     Bounds::new(low, low + SIDE, Side::Periodic)
 }
 
-fn gravity(over: &'static str, accuracy: f64) -> Vec<Box<dyn Component>> {
+fn gravity(over: &'static str, accuracy: f64, hubble: f64) -> Vec<Box<dyn Component>> {
     let settings = [
         ("g", Value::Number(1.3)),
         ("softening", Value::Number(0.17)),
@@ -33,6 +33,7 @@ fn gravity(over: &'static str, accuracy: f64) -> Vec<Box<dyn Component>> {
         ("theta", Value::Number(0.9)),
         ("images", word("ewald")),
         ("accuracy", Value::Number(accuracy)),
+        ("hubble", Value::Number(hubble)),
     ];
     vec![force("gravity", &settings)]
 }
@@ -46,7 +47,7 @@ fn spread(device: &Device, count: usize, machine: Machine) -> Simulation<Gpu> {
 fn within(device: &Device, count: usize, machine: Machine, reach: f64) -> Simulation<Gpu> {
     let mut simulation = moving(device, count, Some(machine));
     let clock = pollster::block_on(simulation.backend().world()).expect("a clock");
-    simulation.backend().set_world(World { bounds: cube(), ..clock }).expect("a world");
+    simulation.backend().set_world(World { bounds: cube(), time: 3.7, ..clock }).expect("a world");
     let mut random = Random::new(7);
     let places: Vec<Vec4> = (0..count)
         .map(|_| (cube().low + SIDE * (0.5 + reach * random.vector())).as_vec3().extend(0.3 + 0.1 * random.narrow()))
@@ -113,20 +114,21 @@ pub fn all(shared: &Shared, device: &Device, stages: &mut Vec<Stage>) {
     charges(device, stages);
     let machine = Machine::HOST;
     let problem = |machine, count: usize| Problem::new(u32::try_from(count).expect("few"), machine).at(&[], cube());
-    for accuracy in [COARSE, FINE] {
+    // In a space that expands, and in one that does not.
+    for (accuracy, hubble) in [(COARSE, 0.0), (FINE, 0.0), (COARSE, 2.0)] {
         let mut plan = Plan::default();
-        gravity("pairs", accuracy)[0]
+        gravity("pairs", accuracy, hubble)[0]
             .stage(motes::component::Stage::Evaluate { earlier: 0 }, &mut plan, &problem(machine, FEW))
             .expect("a plan");
         // The waves are summed by the same kernels, however many they are.
         for kernel in plan.kernels.into_iter().filter(|kernel| accuracy == COARSE || kernel.name == "gravity_ewald") {
-            let name = format!("all images to {accuracy:e}, {}", kernel.name);
+            let name = format!("all images to {accuracy:e}, H = {hubble}, {}", kernel.name);
             stages.push(stage(&name, spread(device, FEW, machine), kernel));
         }
     }
     for accuracy in [COARSE, FINE_TREE].into_iter().filter(|_| subgroups_of_eight(shared)) {
         let machine = Machine { subgroup: 8, ..machine };
-        let forces = gravity("tree", accuracy);
+        let forces = gravity("tree", accuracy, 0.0);
         let mut step = Step::new(&forces, problem(machine, FEW));
         step.evaluate();
         let plan = step.finished().expect("a plan");

@@ -5,6 +5,7 @@ pub mod exact;
 mod field;
 mod refusals;
 mod remarks;
+mod universe;
 mod worlds;
 
 use crate::support::states::{force, word};
