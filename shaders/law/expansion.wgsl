@@ -1,34 +1,34 @@
 // The scale factor a at the time of the world, with which gravity grows in supercomoving coordinates (Martel & Shapiro 1998). LEFT is the time at
 // which a is infinite, and a⁻¹ᐟ² / y a sum of Chebyshev polynomials of 2 y − 1, with y = (1 − t / LEFT)¹ᐟ⁴.
-override LEFT: f32 = 1.0;
-override A_0: f32 = 0.0;
-override A_1: f32 = 0.0;
-override A_2: f32 = 0.0;
-override A_3: f32 = 0.0;
-override A_4: f32 = 0.0;
-override A_5: f32 = 0.0;
-override A_6: f32 = 0.0;
-override A_7: f32 = 0.0;
-override A_8: f32 = 0.0;
-override A_9: f32 = 0.0;
-override A_10: f32 = 0.0;
-override A_11: f32 = 0.0;
-override A_12: f32 = 0.0;
-override A_13: f32 = 0.0;
-override A_14: f32 = 0.0;
-override A_15: f32 = 0.0;
-override A_16: f32 = 0.0;
-override A_17: f32 = 0.0;
-override A_18: f32 = 0.0;
-override A_19: f32 = 0.0;
-override A_20: f32 = 0.0;
-override A_21: f32 = 0.0;
-override A_22: f32 = 0.0;
-override A_23: f32 = 0.0;
-override A_24: f32 = 0.0;
-override A_25: f32 = 0.0;
-override A_26: f32 = 0.0;
-override A_27: f32 = 0.0;
+override LEFT: f32;
+override A_0: f32;
+override A_1: f32;
+override A_2: f32;
+override A_3: f32;
+override A_4: f32;
+override A_5: f32;
+override A_6: f32;
+override A_7: f32;
+override A_8: f32;
+override A_9: f32;
+override A_10: f32;
+override A_11: f32;
+override A_12: f32;
+override A_13: f32;
+override A_14: f32;
+override A_15: f32;
+override A_16: f32;
+override A_17: f32;
+override A_18: f32;
+override A_19: f32;
+override A_20: f32;
+override A_21: f32;
+override A_22: f32;
+override A_23: f32;
+override A_24: f32;
+override A_25: f32;
+override A_26: f32;
+override A_27: f32;
 
 fn expansion() -> f32 {
     var terms = array<f32, 28>(

@@ -105,6 +105,17 @@ mod tests {
         assert!((-2.95..-2.6).contains(&slope(1e2)), "{}", slope(1e2));
         assert!(made.power(0.0).abs() < f64::MIN_POSITIVE);
     }
+    /// By Colossus (Diemer, `ApJS` 239, 35, 2018), `eisenstein98_zb`, which normalizes by an integral of its own.
+    #[test]
+    fn it_is_that_of_another_program() {
+        let cosmology = Cosmology::new(1.0, 0.3, 0.7).expect("a universe");
+        let made = Spectrum::new(&cosmology, 0.045, 0.7, 0.96, 0.8).expect("a spectrum");
+        for (k, expected) in
+            [(1e-3, 3631.3112), (1e-2, 20_799.078), (0.1, 5607.5913), (1.0, 63.070_778), (10.0, 0.210_221_45)]
+        {
+            assert!((made.power(k) / expected - 1.0).abs() < 1e-3, "{k}: {} {expected}", made.power(k));
+        }
+    }
     #[test]
     fn baryons_are_a_part_of_matter() {
         let cosmology = Cosmology::new(1.0, 0.3, 0.7).expect("a universe");

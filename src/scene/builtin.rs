@@ -36,6 +36,7 @@ pub const SCENES: &[Builtin] = scenes![
     "plummer",
     "cold_collapse",
     "periodic_box",
+    "cosmic_web",
     "fountain",
     "fountain_pool",
     "pendulum",

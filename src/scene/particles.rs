@@ -31,6 +31,12 @@ const BESIDE: [&str; 4] = ["color", "species", held::OWN[0], held::OWN[1]];
 pub(super) const OFFSETS: &[Key] = &[
     Key::new("center", Kind::Vector, Value::Vector(DVec3::ZERO), "is added to every position [length]"),
     Key::new("velocity", Kind::Vector, Value::Vector(DVec3::ZERO), "is added to every velocity [length / time]"),
+    Key::new(
+        "velocity_factor",
+        Kind::Number,
+        Value::Number(1.0),
+        "multiplies every velocity, before `velocity` is added: for a snapshot of GADGET at redshift z where space expands, (1 + z)^-1.5",
+    ),
 ];
 /// The keys of every entry.
 pub const EVERY: &[Key] = &[Key::new(
@@ -298,7 +304,8 @@ fn from_bodies(
 fn moved(mut particles: State, offsets: &Settings) -> State {
     let [center, velocity] = ["center", "velocity"].map(|k| offsets.vector(k));
     particles.position_mut().iter_mut().for_each(|x| *x += center);
-    particles.velocity_mut().iter_mut().for_each(|v| *v += velocity);
+    let factor = offsets.number("velocity_factor");
+    particles.velocity_mut().iter_mut().for_each(|v| *v = *v * factor + velocity);
     particles
 }
 

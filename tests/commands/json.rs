@@ -113,6 +113,7 @@ fn scenes_scale_by_one_number() {
         ("galaxy", 0.1, 0.001),
         ("flock", 2.0, 0.001),
         ("periodic_box", 0.125, 0.001),
+        ("cosmic_web", 0.125, 0.001),
         // 41 columns become 20, and the like.
         ("flag", 0.25, 0.06),
         ("jelly", 0.2, 0.2),

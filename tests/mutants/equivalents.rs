@@ -118,6 +118,13 @@ pub const EQUIVALENT: &[Equivalent] = &[
     same("charges.wgsl", "if square > LAST", ">", ">=", "no wave is exactly the last"),
     same("coulomb_ewald.wgsl", "override VECTORS: u32 = 7u;", "7u", "8u", ALWAYS_SET),
     same("gravity_ewald_distant.wgsl", "if v > 0.0 {", ">", ">=", EDGE),
+    same(
+        "law/expansion.wgsl",
+        "for (var n = 27u;",
+        "27u",
+        "28u",
+        "the last term, which is read twice, is below rounding",
+    ),
     same("gravity_ewald.wgsl", "let mass = select(", ">", ">=", "at the edge both are nothing"),
     same("gravity_ewald_accurate_distant.wgsl", "if v > 0.0 {", ">", ">=", EDGE),
     same("gravity_ewald_accurate.wgsl", "let mass = select(", ">", ">=", "at the edge both are nothing"),

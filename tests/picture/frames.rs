@@ -11,6 +11,7 @@ const PARTS: &[&str] = &[
     "brazil_nut",
     "cold_collapse",
     "column_collapse",
+    "cosmic_web",
     "flock",
     "fountain",
     "galaxy",

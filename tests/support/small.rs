@@ -7,6 +7,7 @@ pub const SMALLER: &[(&str, &[&str])] = &[
     ("plummer", &["particles.0.count=100"]),
     ("cold_collapse", &["particles.0.count=100"]),
     ("periodic_box", &["particles.0.size=[5, 5, 5]"]),
+    ("cosmic_web", &["particles.0.count_per_side=5"]),
     ("fountain", &["particles.0.count=100", "particles.1.count=100"]),
     ("fountain_pool", &["force.1.spacing=0.04"]),
     ("cloth", &["particles.0.columns=8", "particles.0.rows=8"]),

@@ -22,6 +22,7 @@ fn every_one_loads_and_says_what_to_see() {
         "plummer",
         "cold_collapse",
         "periodic_box",
+        "cosmic_web",
         "fountain",
         "fountain_pool",
     ];
