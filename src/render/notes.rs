@@ -19,7 +19,7 @@ const LEAST: f64 = 12.0;
 const SCALE: [f64; 2] = [11.0, 20.0];
 
 impl Image {
-    /// Writes on it, in its corners: the time \[time\], the axes x, y and z as they are seen, a bar with its length at the centre of the
+    /// Writes on it, in its corners: the time \[time\], or the redshift where space expands, the axes x, y and z as they are seen, a bar with its length at the centre of the
     /// picture \[length\], and the scale of speeds or headings where colours show them; and the outline of a box that is closed along every axis. Nothing is written on pictures of less than 192 pixels, and no scale
     /// on those of less than 320 pixels from left to right.
     pub fn annotate(&mut self, picture: &Picture, time: f64) {
@@ -43,7 +43,7 @@ impl Image {
         }
         let (low, right) = (height - 0.75 * line, width - 0.75 * line);
         pen.over(DVec2::new(0.0, height - 2.0 * line), DVec2::new(8.0 * line, height));
-        pen.text(&format!("t = {}", number(time)), DVec2::new(0.75 * line, low - line));
+        pen.text(&picture.moment(time), DVec2::new(0.75 * line, low - line));
         pen.over(DVec2::ZERO, DVec2::splat(6.0 * line));
         pen.axes(picture, DVec2::new(3.0 * line, 3.0 * line));
         pen.over(DVec2::new((1.0 - BAR) * width, height - 2.0 * line), DVec2::new(width, height));
@@ -58,6 +58,14 @@ impl Image {
 }
 
 impl Picture {
+    /// The time in words, or the redshift.
+    fn moment(&self, time: f64) -> String {
+        match self.expansion() {
+            // To the digits that are worth something, and no −0 at the end of a run.
+            Some(expansion) => format!("z = {:.2}", (1.0 / expansion.scale_factor(time) - 1.0 + 1e-9).max(-1.0)),
+            None => format!("t = {}", number(time)),
+        }
+    }
     /// The outline of a closed box, as it is seen \[pixels\]; of a fluid it is drawn already.
     pub(crate) fn outline(&self) -> Vec<[DVec2; 2]> {
         let is_drawn = self.frame.water.is_there();

@@ -1,6 +1,7 @@
 //! A picture, before it is drawn.
 
 use std::borrow::Cow;
+use std::sync::Arc;
 
 use glam::DVec3;
 
@@ -12,6 +13,7 @@ use super::palette::pack;
 use super::scenery::Facets;
 use super::styles::{self, STYLES, Style, Subject};
 use super::{Camera, Color, Frame, Scenery, Solid, Trail, Water, fluid, passes};
+use crate::cosmology::Expansion;
 use crate::error::Error;
 use crate::kernel::Plan;
 use crate::settings::{Settings, Value};
@@ -31,6 +33,8 @@ pub struct Picture {
     facets: Facets,
     /// The style, by its name in the register.
     style: &'static str,
+    /// The expansion of space, of which notes have the redshift in place of the time.
+    expansion: Option<Arc<Expansion>>,
     /// Whether notes are written on it.
     annotated: bool,
     /// Whether some may not be active, which are not drawn.
@@ -168,6 +172,7 @@ impl Picture {
             exposure: settings.number("exposure"),
             facets,
             style: entry.name,
+            expansion: scenery.expansion.clone(),
             annotated: settings.flag("annotate"),
             has_inactive: !particles.life().is_empty() || particles.capacity.is_some(),
         })
@@ -231,6 +236,9 @@ impl Picture {
     #[cfg(test)]
     pub(super) fn styled(self, style: &'static str) -> Self {
         Self { style, ..self }
+    }
+    pub(super) fn expansion(&self) -> Option<&Expansion> {
+        self.expansion.as_deref()
     }
     pub(super) fn style(&self) -> &'static dyn Style {
         STYLES.iter().find(|entry| entry.name == self.style).map_or(STYLES[0].style, |entry| entry.style)

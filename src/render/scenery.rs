@@ -9,6 +9,7 @@ use super::fluid::{Plane, drop_of};
 use super::frame::{AROUND, AROUND_START, EDGE, FACET, Frame, HIDDEN, NONE, SLOT, SOLID};
 use super::solid::{Shape, Solid};
 use super::tank;
+use crate::cosmology::Expansion;
 use crate::error::Error;
 use crate::kernel::{Bounds, Kernel, Name, Side};
 use crate::links::{Half, Links, MOST_LINKS, Network, WORDS};
@@ -33,6 +34,8 @@ pub struct Scenery {
     pub drop: f64,
     /// The fixed particles, by id: in a fluid those are walls.
     pub held: Arc<Vec<u32>>,
+    /// The expansion of space, where it expands.
+    pub expansion: Option<Arc<Expansion>>,
     /// The obstacles of a scene, and the motions that they follow: see [`Scenery::at`].
     pub standing: (Vec<Standing>, Vec<Motion>),
 }

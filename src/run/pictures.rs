@@ -137,7 +137,9 @@ pub(super) fn scenery(setup: &Setup) -> Scenery {
     let properties = || setup.forces.iter().map(|force| force.properties());
     let walls = setup.state.floor_plan.iter().flat_map(|plan| plan.standing());
     let standing = properties().filter_map(|of| of.pictured).chain(walls).collect();
-    Scenery::of(&setup.state).within(&setup.bounds).beside(standing, &setup.state)
+    let expansion = properties().find_map(|of| of.expands).map(|expands| expands.expansion);
+    let scenery = Scenery { expansion, ..Scenery::of(&setup.state).within(&setup.bounds) };
+    scenery.beside(standing, &setup.state)
 }
 
 /// What a viewer changes.

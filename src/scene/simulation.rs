@@ -128,7 +128,7 @@ pub(super) fn read<'a>(
                 Some(steps) => {
                     simulation.steps = steps;
                     simulation.until = until;
-                    if let Some((dt, remark)) = divided(until, simulation.dt, steps) {
+                    if let Some((dt, remark)) = divided(&entry.key, until, simulation.dt, steps) {
                         // The lengths of adaptive steps are determined during the run.
                         if !settings.flag("adaptive") {
                             simulation.given_dt = Some(simulation.dt);
@@ -226,13 +226,14 @@ fn steps(until: f64, dt: f64) -> Option<u64> {
 }
 
 /// The step with which `steps` steps end at `until`, if steps of `dt` end after it, and the remark on that.
-fn divided(until: f64, dt: f64, steps: u64) -> Option<(f64, String)> {
+fn divided(key: &str, until: f64, dt: f64, steps: u64) -> Option<(f64, String)> {
     #[expect(clippy::cast_precision_loss, reason = "at most 1e12")]
     let count = steps as f64;
     let even = until / count;
     let text = || {
         format!(
-            "until = {until:?} is no whole number of steps of dt = {dt:?}: {} of dt = {even:?} reach it",
+            "{key} {} {until:?} is no whole number of steps of dt = {dt:?}: {} of dt = {even:?} reach it",
+            if key == "until" { "=" } else { "at t =" },
             if steps == 1 { "one step".to_owned() } else { format!("{steps} steps") }
         )
     };
