@@ -1,4 +1,7 @@
-//! The expansion of space, and the energy equation of Layzer and Irvine.
+//! The energy equation of an expanding space (Layzer 1963; Irvine 1961), in supercomoving coordinates: with the kinetic energy K = Σ ½ m v² of
+//! v = a² dx/dT, and the potential energy W = a Σ ½ m φ of comoving positions without the mean density,
+//!   d(K + W) / dt = W d ln a / dt.
+//! The integral of W d ln a is that of the trapezoids between rows.
 
 use std::sync::Arc;
 

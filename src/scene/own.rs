@@ -22,6 +22,11 @@ pub(super) const SIMULATION: &[Own] = &[
         "or steps",
         "the time at which the run ends; if it is not a multiple of dt, dt is reduced, and a note says so [time]",
     ),
+    own(
+        "until_redshift",
+        "or steps",
+        "where space expands, the redshift at which the run ends: dt is reduced such that whole steps end there",
+    ),
     own("integrator", "\"leapfrog\"", "the integrator, by its name"),
 ];
 pub(super) const BOX: &[Own] = &[

@@ -128,16 +128,17 @@ pub(super) fn read<'a>(
                 Some(steps) => {
                     simulation.steps = steps;
                     simulation.until = until;
-                    if let Some((dt, remark)) = divided(&entry.key, until, simulation.dt, steps) {
+                    if let Some((dt, remark)) = divided(until, simulation.dt, steps) {
                         // The lengths of adaptive steps are determined during the run.
                         if !settings.flag("adaptive") {
                             simulation.given_dt = Some(simulation.dt);
                             simulation.dt = dt;
-                            simulation.remark = Some(remark);
+                            // The time of a redshift is a whole number of steps by chance alone.
+                            simulation.remark = Some(remark).filter(|_| entry.key == "until");
                         }
                     }
                 }
-                None => report.push(Fault::at(&entry.node.place, format!("`{}` is too far", entry.key)).label(
+                None => report.push(Fault::at(&entry.node.place, format!("`{}` is too large", entry.key)).label(
                     format!("{:.3e} steps of dt = {:?}, at most {MOST_STEPS}", until / simulation.dt, simulation.dt),
                 )),
             }
@@ -226,14 +227,13 @@ fn steps(until: f64, dt: f64) -> Option<u64> {
 }
 
 /// The step with which `steps` steps end at `until`, if steps of `dt` end after it, and the remark on that.
-fn divided(key: &str, until: f64, dt: f64, steps: u64) -> Option<(f64, String)> {
+fn divided(until: f64, dt: f64, steps: u64) -> Option<(f64, String)> {
     #[expect(clippy::cast_precision_loss, reason = "at most 1e12")]
     let count = steps as f64;
     let even = until / count;
     let text = || {
         format!(
-            "{key} {} {until:?} is no whole number of steps of dt = {dt:?}: {} of dt = {even:?} reach it",
-            if key == "until" { "=" } else { "at t =" },
+            "until = {until:?} is no whole number of steps of dt = {dt:?}: {} of dt = {even:?} reach it",
             if steps == 1 { "one step".to_owned() } else { format!("{steps} steps") }
         )
     };

@@ -20,7 +20,7 @@ bodies = [{ position = [0, 0, 0] }]
    |
  3 | stepps = 10
    | ^^^^^^ did you mean `steps`?
-   = known here: `steps`, `until`, `integrator`, `dt`, `adaptive`, `dt_min`, `dt_before`, `cfl`, `precision`
+   = known here: `steps`, `until`, `until_redshift`, `integrator`, `dt`, `adaptive`, `dt_min`, `dt_before`, `cfl`, `precision`
 
 a.toml: 1 error",
     );
@@ -44,7 +44,7 @@ sofening = 0.05
    |
  8 | sofening = 0.05
    | ^^^^^^^^ did you mean `softening`?
-   = known here: `kind`, `g`, `softening`, `kernel`, `individual_softening`, `over`, `theta`, `alpha`, `images`, `accuracy`, `multipoles`
+   = known here: `kind`, `g`, `softening`, `kernel`, `individual_softening`, `over`, `theta`, `alpha`, `images`, `accuracy`, `multipoles`, `hubble`, `omega_matter`, `omega_lambda`, `redshift`
 
 a.toml: 1 error",
     );
@@ -66,7 +66,7 @@ bodies = [{ position = [0, 0, 0] }]
    |
  4 | every = 5
    | ^^^^^ it belongs in [output]
-   = known here: `steps`, `until`, `integrator`, `dt`, `adaptive`, `dt_min`, `dt_before`, `cfl`, `precision`
+   = known here: `steps`, `until`, `until_redshift`, `integrator`, `dt`, `adaptive`, `dt_min`, `dt_before`, `cfl`, `precision`
 
 a.toml: 1 error",
     );

@@ -89,7 +89,7 @@ dt = 0.1
 bodies = [{ position = [0, 0, 0] }]
 ",
         &[],
-        "error: [simulation] needs one of `steps`, `until`
+        "error: [simulation] needs one of `steps`, `until`, `until_redshift`
   --> a.toml:1:1
    |
  1 | [simulation]

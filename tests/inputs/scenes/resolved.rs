@@ -119,6 +119,7 @@ bodies = [
 ]
 center = [0.0, 0.0, 0.0]
 velocity = [0.0, 0.0, 0.0]
+velocity_factor = 1.0
 
 [output]
 every = 1

@@ -23,10 +23,12 @@ fn settings(name: &str, values: &[(&'static str, f64)]) -> Settings {
     let keys = shape(name).expect("a shape").keys;
     let known = |name: &str| keys.iter().find(|key| key.name == name);
     let vectors = ["size", "cells"].map(|key| (key, Value::Vector(DVec3::new(3.0, 4.0, 5.0))));
-    let numbers = [("columns", 6.0), ("rows", 5.0), ("strands", 4.0), ("beads", 4.0)];
+    let numbers = [("columns", 6.0), ("rows", 5.0), ("strands", 4.0), ("beads", 4.0), ("hubble", 1.5)];
     // What has no spacing or density by itself.
     let lacks = |(name, _): &(&str, f64)| known(name).is_some_and(|key| key.default.is_none());
-    let given = [("spacing", 0.5), ("density", 0.8), ("radius", 0.25)].into_iter().filter(lacks);
+    let given = [("spacing", 0.5), ("density", 0.8), ("radius", 0.25), ("count_per_side", 6.0), ("side", 40.0)]
+        .into_iter()
+        .filter(lacks);
     let numbers = numbers.into_iter().chain(given).chain(values.iter().copied());
     let all = vectors.into_iter().chain(numbers.map(|(key, x)| (key, Value::Number(x))));
     let fits = all.filter(|(key, _)| known(key).is_some());
@@ -81,6 +83,7 @@ fn the_bits_never_change() {
         ("disk", 0x6c6c_7862_37bc_89f1),
         ("clusters", 0x8f8b_9f69_a873_c01d),
         ("lattice", 0x138f_3cc1_8be2_c72b),
+        ("cosmological", 0),
         ("crystal", 0x5f54_3f93_4702_0947),
         ("block", 0x189e_3f26_e44a_3f45),
         ("drop", 0x52f4_acbd_0571_4f25),
