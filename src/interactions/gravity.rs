@@ -85,6 +85,7 @@ impl Gravity {
     }
     /// Whether there is such a law in the box of a problem.
     fn fits(&self, problem: &Problem) -> Result<(), Error> {
+        self.check_expansion()?;
         let accuracy = self.0.number("accuracy");
         if accuracy < LEAST {
             return Err(Error::Scene(format!(

@@ -42,6 +42,10 @@ pub fn rows(name: &str, state: &State, bounds: Bounds, sets: &[(&'static str, Va
     if name == "tail" {
         setup.forces.push(force("lennard_jones", &[("range", Value::Number(1.0)), ("truncation", word("cut"))]));
     }
+    // And scale factors those of gravity where space expands.
+    if name == "expansion" {
+        setup.forces.push(force("gravity", &[("hubble", Value::Number(0.7)), ("images", word("ewald"))]));
+    }
     // Stresses are those of contacts.
     if name == "stress" {
         setup.forces.push(force("contact", &[("range", Value::Number(1.0))]));

@@ -81,6 +81,7 @@ fn values(key: &Key) -> Vec<Value> {
         // Wants a column that not every state has: `tests/engine/tree/softenings.rs`.
         _ if key.name == "individual_softening" => vec![Value::Flag(false)],
         // What wants a box of its own has tests of its own.
+        _ if key.name == "hubble" => vec![Value::Number(0.0)],
         (Kind::Choice(["nearest", "ewald"]), _) => vec![Value::Text("nearest".into())],
         // The faster one of two searches is one of them, and has tests of its own.
         (Kind::Choice(words), _) if words.contains(&"list") => {

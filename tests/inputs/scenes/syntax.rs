@@ -144,7 +144,7 @@ error: unknown key `colour` in [[particles]] bodies
    |
  6 | colour = "red"
    | ^^^^^^ did you mean `color`?
-   = known here: `bodies`, `color`, `species`, `fixed`, `motion`, `copies`, `room`, `arrangement`, `separation`, `temperature`, `seed`, `center`, `velocity`
+   = known here: `bodies`, `color`, `species`, `fixed`, `motion`, `copies`, `room`, `arrangement`, `separation`, `temperature`, `seed`, `center`, `velocity`, `velocity_factor`
 
 error: this is not TOML: extra `=`, expected nothing
   --> a.toml:8:8
