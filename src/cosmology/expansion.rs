@@ -33,13 +33,13 @@ impl Cosmology {
     /// The time from a scale factor a = u⁻² on until it is infinite \[time\].
     fn left(&self, u: f64) -> f64 {
         let (curvature, lambda) = (self.curvature(), self.lambda);
-        let rate = |v: f64| (self.matter * v.powi(6) + curvature * v.powi(4) + lambda).sqrt();
-        integral(u, |v| 2.0 * v.powi(3) / rate(v)) / self.hubble
+        let rate = |square: f64| (self.matter * square * square * square + curvature * square * square + lambda).sqrt();
+        integral(u, |v| 2.0 * v * v * v / rate(v * v)) / self.hubble
     }
     /// The time from one scale factor to another \[time\].
     #[must_use]
     pub fn time(&self, from: f64, to: f64) -> f64 {
-        self.left(from.powf(-0.5)) - self.left(to.powf(-0.5))
+        self.left(1.0 / from.sqrt()) - self.left(1.0 / to.sqrt())
     }
     /// u = a⁻¹ᐟ² where so much time is left.
     fn where_left(&self, time: f64, most: f64) -> f64 {
@@ -62,15 +62,15 @@ impl Expansion {
         if !(start > 0.0 && start.is_finite()) {
             return Err(Error::Scene(format!("a universe begins with the scale factor {start}: it must be above 0")));
         }
-        let u = start.powf(-0.5);
+        let u = 1.0 / start.sqrt();
         let left = cosmology.left(u);
-        let node = |k: usize| (std::f64::consts::PI * (k as f64 + 0.5) / TERMS as f64).cos();
+        let node = |k: usize| libm::cos(std::f64::consts::PI * (k as f64 + 0.5) / TERMS as f64);
         let values: [f64; TERMS] = std::array::from_fn(|k| {
             let y = 0.5 * (node(k) + 1.0);
-            cosmology.where_left(left * y.powi(4), u) / y
+            cosmology.where_left(left * (y * y * y * y), u) / y
         });
         let terms = std::array::from_fn(|n| {
-            let at = |k: usize| (std::f64::consts::PI * n as f64 * (k as f64 + 0.5) / TERMS as f64).cos();
+            let at = |k: usize| libm::cos(std::f64::consts::PI * n as f64 * (k as f64 + 0.5) / TERMS as f64);
             let sum: f64 = (0..TERMS).map(|k| values[k] * at(k)).sum();
             sum * if n == 0 { 1.0 } else { 2.0 } / TERMS as f64
         });
@@ -79,7 +79,7 @@ impl Expansion {
         if error > ERROR {
             return Err(Error::Scene(format!(
                 "a universe with omega_matter = {}, omega_lambda = {} from the scale factor {start} on is not smooth enough: its scale factor \
-                 would err by {error:.1e}, and {ERROR:.0e} is accepted; begin later, or choose densities that are not nearly 0",
+                 would err by {error:.1e}, and {ERROR:.0e} is accepted; choose a lower redshift, or densities that are nearer to 1",
                 cosmology.matter, cosmology.lambda
             )));
         }
@@ -91,7 +91,7 @@ impl Expansion {
         let (from, to) = (self.start.ln(), (FARTHEST * self.start.max(1.0)).ln());
         let errors = (0..=steps).map(|n| {
             let a = (from + (to - from) * f64::from(n) / f64::from(steps)).exp();
-            let found = self.scale_factor(self.left - self.cosmology.left(a.powf(-0.5)));
+            let found = self.scale_factor(self.left - self.cosmology.left(1.0 / a.sqrt()));
             ((a / found).sqrt() - 1.0).abs()
         });
         errors.fold(0.0, f64::max)

@@ -26,23 +26,7 @@ pub fn displacements(
 ) -> Displacements {
     let fourier = Fourier::new(points);
     let waves = density(points, side, &power, &mut random);
-    let cube = Cube { points, side, fourier };
-    let first = cube.gradient(&waves, -1.0);
-    if !second {
-        return Displacements { first, second: Vec::new() };
-    }
-    let [xx, yy, zz] = [(0, 0), (1, 1), (2, 2)].map(|axes| cube.curvature(&waves, axes));
-    let mut source: Vec<Complex> = (0..xx.len())
-        .into_par_iter()
-        .map(|i| Complex { re: xx[i] * yy[i] + xx[i] * zz[i] + yy[i] * zz[i], im: 0.0 })
-        .collect();
-    drop([xx, yy, zz]);
-    for axes in [(0, 1), (0, 2), (1, 2)] {
-        let mixed = cube.curvature(&waves, axes);
-        source.par_iter_mut().zip(mixed).for_each(|(sum, one)| sum.re -= one * one);
-    }
-    cube.fourier.waves(&mut source);
-    Displacements { first, second: cube.gradient(&source, 1.0) }
+    Cube { points, side, fourier }.displacements(&waves, second)
 }
 
 /// The waves of δ, those that the points resolve: shell by shell, so that those of a coarser cube come first.
@@ -80,6 +64,25 @@ struct Cube {
 }
 
 impl Cube {
+    /// Those of a field of such waves.
+    fn displacements(&self, waves: &[Complex], second: bool) -> Displacements {
+        let first = self.gradient(waves, -1.0);
+        if !second {
+            return Displacements { first, second: Vec::new() };
+        }
+        let [xx, yy, zz] = [(0, 0), (1, 1), (2, 2)].map(|axes| self.curvature(waves, axes));
+        let mut source: Vec<Complex> = (0..xx.len())
+            .into_par_iter()
+            .map(|i| Complex { re: xx[i] * yy[i] + xx[i] * zz[i] + yy[i] * zz[i], im: 0.0 })
+            .collect();
+        drop([xx, yy, zz]);
+        for axes in [(0, 1), (0, 2), (1, 2)] {
+            let mixed = self.curvature(waves, axes);
+            source.par_iter_mut().zip(mixed).for_each(|(sum, one)| sum.re -= one * one);
+        }
+        self.fourier.waves(&mut source);
+        Displacements { first, second: self.gradient(&source, 1.0) }
+    }
     /// The wave vector of a place; none where it is longer than the points resolve, of which the sign is not known.
     fn vector(&self, place: usize) -> Option<DVec3> {
         let n = self.points;
@@ -169,31 +172,38 @@ mod tests {
         }
         assert!(fine.second.iter().any(|d| d.length() > 1e-6));
     }
-    /// Two crossed plane waves, whose second order has a closed form: φ₁ = −A cos(p x) / p² − B cos(q y) / q², and the source is their product.
+    /// Two plane waves across each other, along axes and along diagonals: of what does not depend on the axes, the source is the product of their δ.
     #[test]
     fn the_second_order_of_crossed_waves_has_a_closed_form() {
-        let (points, side) = (16, 1.0);
-        let (a, b, p, q) = (0.3, 0.2, 2.0 * PI, 4.0 * PI);
-        let cube = Cube { points, side, fourier: Fourier::new(points) };
-        let mut waves = vec![Complex::default(); points * points * points];
-        // δ = A cos p x + B cos q y
-        for (at, size) in [(1, a), (points - 1, a), (2 * points, b), ((points - 2) * points, b)] {
-            waves[at].re += 0.5 * size;
-        }
-        let [xx, yy] = [(0, 0), (1, 1)].map(|axes| cube.curvature(&waves, axes));
-        let mut source: Vec<Complex> = xx.iter().zip(&yy).map(|(x, y)| Complex { re: x * y, im: 0.0 }).collect();
-        cube.fourier.waves(&mut source);
-        let (first, second) = (cube.gradient(&waves, -1.0), cube.gradient(&source, 1.0));
-        for (at, (one, two)) in first.iter().zip(&second).enumerate() {
-            let (x, y) = ((at % points) as f64 / points as f64, (at / points % points) as f64 / points as f64);
-            // −∇φ₁ = −A sin(p x) / p, where the density is highest at x = 0.
-            let expected = DVec3::new(-a * (p * x).sin() / p, -b * (q * y).sin() / q, 0.0);
-            assert!((*one - expected).length() < 1e-12, "{one} {expected}");
-            // ∇²φ₂ = A B cos(p x) cos(q y).
-            let k = p * p + q * q;
-            let expected =
-                a * b / k * DVec3::new(p * (p * x).sin() * (q * y).cos(), q * (p * x).cos() * (q * y).sin(), 0.0);
-            assert!((*two - expected).length() < 1e-12, "{two} {expected}");
+        let (points, side) = (16_usize, 1.0);
+        for [p, q] in
+            [[[1, 0, 0], [0, 2, 0]], [[1, 1, 0], [1, -1, 0]], [[0, 1, 2], [0, -2, 1]], [[2, 0, -1], [1, 0, 2]]]
+        {
+            let (a, b) = (0.3, 0.2);
+            let cube = Cube { points, side, fourier: Fourier::new(points) };
+            let mut waves = vec![Complex::default(); points * points * points];
+            // δ = A cos p·x + B cos q·x
+            let n = i32::try_from(points).expect("few");
+            for (k, size) in [(p, a), (q, b)] {
+                for sign in [1, -1] {
+                    let at = k.map(|k| usize::try_from((sign * k).rem_euclid(n)).expect("a place"));
+                    waves[at[0] + points * (at[1] + points * at[2])].re += 0.5 * size;
+                }
+            }
+            let made = cube.displacements(&waves, true);
+            let [p, q] = [p, q].map(|k| 2.0 * PI * DVec3::from_array(k.map(f64::from)));
+            for (at, (one, two)) in made.first.iter().zip(&made.second).enumerate() {
+                let place = [at % points, at / points % points, at / (points * points)];
+                let x = DVec3::from_array(place.map(|n| n as f64 / points as f64));
+                let (u, v) = (p.dot(x), q.dot(x));
+                // −∇φ₁ = −A sin(p·x) p / p² − …: towards the crests.
+                let expected = -a * u.sin() * p / p.length_squared() - b * v.sin() * q / q.length_squared();
+                assert!((*one - expected).length() < 1e-12, "{one} {expected}");
+                // ∇²φ₂ = A B cos(p·x) cos(q·x).
+                let k = (p + q).length_squared();
+                let expected = a * b / k * (p * u.sin() * v.cos() + q * u.cos() * v.sin());
+                assert!((*two - expected).length() < 1e-12, "{p} {q}: {two} {expected}");
+            }
         }
     }
 }

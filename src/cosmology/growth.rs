@@ -18,12 +18,15 @@ impl Cosmology {
         let slope = -(1.5 * self.matter / (a * a * a) + self.curvature() / (a * a)) / square;
         slope + 2.5 * self.matter / (a * a * square * self.growth(a))
     }
-    /// The same of waves to second order, which are −3/7 D² Ω_m(a)^(−1/143) (Bouchet et al. 1995): the growth, and its rate.
+    /// The same of waves to second order (Bouchet et al. 1995), the growth and its rate: −3/7 D² Ω_m(a)^(−1/143) and 2 Ω_m(a)^(6/11), which are those of a flat
+    /// universe; without a cosmological constant −3/7 D² Ω_m(a)^(−2/63) and 2 Ω_m(a)^(4/7).
     #[must_use]
     pub fn second_growth(&self, a: f64) -> [f64; 2] {
         let share = self.matter_at(a);
         let first = self.growth(a);
-        [-3.0 / 7.0 * first * first * libm::pow(share, -1.0 / 143.0), 2.0 * libm::pow(share, 6.0 / 11.0)]
+        let open = self.lambda == 0.0 && self.curvature() > 0.0;
+        let [size, rate] = if open { [-2.0 / 63.0, 4.0 / 7.0] } else { [-1.0 / 143.0, 6.0 / 11.0] };
+        [-3.0 / 7.0 * first * first * libm::pow(share, size), 2.0 * libm::pow(share, rate)]
     }
 }
 

@@ -37,16 +37,39 @@ impl Spectrum {
                 "h is {h}, sigma_8 {sigma} and spectral_index {index}: the first two must be above 0"
             )));
         }
+        if !(0.1..=10.0).contains(&h) {
+            return Err(Error::Scene(format!(
+                "h is {h}: it is Hubble's constant in 100 km/s/Mpc, some 0.7, and from 0.1 to 10"
+            )));
+        }
+        if !(-3.0 < index && index < 4.0) {
+            return Err(Error::Scene(format!(
+                "spectral_index is {index}: where it is not above -3 and below 4, sigma_8 is not finite"
+            )));
+        }
         let one = Self { matter, baryons, h, index, amplitude: 1.0 };
+        let (horizon, damping) = (one.horizon(), one.damping());
+        if !(horizon > 0.0 && damping > 0.0) {
+            return Err(Error::Scene(format!(
+                "omega_matter = {matter}, omega_baryon = {baryons} and h = {h} are beyond the fit of Eisenstein & Hu (1998), whose sound horizon is \
+                 {horizon:.3} Mpc and whose shape is {damping:.3} there: choose less of baryons, or densities times h² from 0.02 to 1"
+            )));
+        }
         Ok(Self { amplitude: (sigma / one.deviation(8.0)).powi(2), ..one })
+    }
+    /// The sound horizon \[Mpc\].
+    fn horizon(&self) -> f64 {
+        let (matter, baryons) = (self.matter * self.h * self.h, self.baryons * self.h * self.h);
+        44.5 * libm::log(9.83 / matter) / (1.0 + 10.0 * libm::pow(baryons, 0.75)).sqrt()
+    }
+    /// By how much baryons make the shape less.
+    fn damping(&self) -> f64 {
+        let (matter, share) = (self.matter * self.h * self.h, self.baryons / self.matter);
+        1.0 - 0.328 * libm::log(431.0 * matter) * share + 0.38 * libm::log(22.3 * matter) * share * share
     }
     /// T(k), with k in h/Mpc.
     fn transfer(&self, k: f64) -> f64 {
-        let (matter, baryons) = (self.matter * self.h * self.h, self.baryons * self.h * self.h);
-        let share = self.baryons / self.matter;
-        // The sound horizon [Mpc].
-        let horizon = 44.5 * libm::log(9.83 / matter) / (1.0 + 10.0 * libm::pow(baryons, 0.75)).sqrt();
-        let damping = 1.0 - 0.328 * libm::log(431.0 * matter) * share + 0.38 * libm::log(22.3 * matter) * share * share;
+        let (horizon, damping) = (self.horizon(), self.damping());
         let scale = 0.43 * k * self.h * horizon;
         let shape = self.matter * self.h * (damping + (1.0 - damping) / (1.0 + scale * scale * scale * scale));
         let q = k * WARMTH * WARMTH / shape;
@@ -119,8 +142,20 @@ mod tests {
     #[test]
     fn baryons_are_a_part_of_matter() {
         let cosmology = Cosmology::new(1.0, 0.3, 0.7).expect("a universe");
-        for (baryons, h, sigma) in [(0.31, 0.7, 0.8), (-0.01, 0.7, 0.8), (0.04, 0.0, 0.8), (0.04, 0.7, f64::NAN)] {
-            assert!(Spectrum::new(&cosmology, baryons, h, 0.96, sigma).is_err());
+        let refused = [
+            (0.31, 0.7, 0.96, 0.8),
+            (-0.01, 0.7, 0.96, 0.8),
+            (0.04, 0.0, 0.96, 0.8),
+            (0.04, 0.7, 0.96, f64::NAN),
+            (0.04, 70.0, 0.96, 0.8),
+        ];
+        for (baryons, h, index, sigma) in
+            refused.into_iter().chain([(0.04, 0.7, -3.0, 0.8), (0.04, 0.7, 4.0, 0.8), (0.04, 6.0, 0.96, 0.8)])
+        {
+            assert!(Spectrum::new(&cosmology, baryons, h, index, sigma).is_err(), "{baryons} {h} {index} {sigma}");
         }
+        // Where all is baryons, and little, the fit has no shape.
+        let light = Cosmology::new(1.0, 0.02, 0.7).expect("a universe");
+        assert!(Spectrum::new(&light, 0.02, 0.7, 0.96, 0.8).is_err());
     }
 }

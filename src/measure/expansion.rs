@@ -29,7 +29,8 @@ pub const MEASURE: Measure = Measure {
         ("growth", "the growth D of small waves of the density, relative to that today"),
         ("kinetic", "K = 1/2 sum m v^2, of v = a^2 dx/dT [mass length^2 / time^2]"),
         ("potential", "W = a times the potential energy of comoving positions, without the mean density [mass length^2 / time^2]"),
-        ("cosmic_energy", "K + W - integral of W d ln a since the start, by the trapezoids of the rows: constant [mass length^2 / time^2]"),
+        ("work", "the integral of W d ln a since the start, by the trapezoids of the rows [mass length^2 / time^2]"),
+        ("cosmic_energy", "K + W - work, which is constant [mass length^2 / time^2]"),
     ],
     times: Times::Chosen,
     usual: |setup| Ok(of(setup).map(|_| Settings::default())),
@@ -66,12 +67,12 @@ impl Series for Expanding {
         self.before = Some([a.ln(), potential]);
         let cosmology = &self.expansion.cosmology;
         let growth = cosmology.growth(a) / cosmology.growth(1.0);
-        let numbers = [a, 1.0 / a - 1.0, cosmology.rate(a), growth, kinetic, potential, kinetic + potential - self.work];
+        let numbers = [a, 1.0 / a - 1.0, cosmology.rate(a), growth, kinetic, potential, self.work, kinetic + potential - self.work];
         Ok(vec![numbers.map(Into::into).to_vec()])
     }
     fn recall(&mut self, _: u64, cells: &[&str]) {
-        let [a, kinetic, potential, cosmic] = [1, 5, 6, 7].map(|place| number(cells, place));
+        let [a, potential, work] = [1, 6, 7].map(|place| number(cells, place));
         self.before = Some([a.ln(), potential]);
-        self.work = kinetic + potential - cosmic;
+        self.work = work;
     }
 }

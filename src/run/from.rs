@@ -48,9 +48,10 @@ pub fn go_on(setup: &mut Setup, scene: &Scene, path: &Path) -> Result<(), Error>
     if let (Some(given), true) = (scene.given_dt, state.step > 0) {
         let made = state.time / state.step as f64;
         if (made - scene.dt).abs() > 1e-9 * scene.dt {
+            let whole = (scene.until / made).round() * made;
             return refuse(format!(
                 "was made by steps of {made}, and here steps are {}, so that a whole number of them ends at {} (the scene has dt = {given}): \
-                 go on with --set simulation.dt={made:?} and an `until` that is a whole number of these",
+                 go on with --set simulation.dt={made:?} and --until {whole:?}, a whole number of these",
                 scene.dt, scene.until
             ));
         }

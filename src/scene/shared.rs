@@ -38,7 +38,7 @@ fn force_keys(table: &Table<'_>) -> Option<&'static [Key]> {
 }
 
 /// The first force that has a shared key, its place and its keys.
-pub(super) fn owner<'a>(
+pub(super) fn first_with<'a>(
     mut forces: impl Iterator<Item = &'a Table<'a>>,
     name: &str,
 ) -> Option<(usize, &'a Table<'a>, &'static [Key])> {
@@ -54,7 +54,8 @@ pub(super) fn owner<'a>(
 pub(super) fn said<'a>(tables: impl Iterator<Item = &'a Table<'a>> + Clone) -> Vec<Entry> {
     let mut all: Vec<Entry> = Vec::new();
     for name in tables.clone().filter_map(force_keys).flat_map(shared) {
-        let Some((_, table, keys)) = owner(tables.clone(), name).filter(|_| !all.iter().any(|entry| entry.key == name))
+        let Some((_, table, keys)) =
+            first_with(tables.clone(), name).filter(|_| !all.iter().any(|entry| entry.key == name))
         else {
             continue;
         };
@@ -102,7 +103,7 @@ pub(super) fn left<'a>(sections: &'a [(&'static str, Table<'a>)]) -> Vec<Shared>
     let emitters = all("emitter").enumerate().map(|(place, table)| (place, "emitter", table, emitter_keys(table)));
     let named = shapes.chain(emitters).flat_map(|(place, section, table, keys)| {
         left_out(table, keys).filter_map(move |key| {
-            let (force, ..) = owner(all("force"), key)?;
+            let (force, ..) = first_with(all("force"), key)?;
             Some(Shared { force, path: format!("{section}.{place}.{key}") })
         })
     });
@@ -116,7 +117,7 @@ pub(super) fn contradictions<'a>(sections: &'a [(&'static str, Table<'a>)]) -> V
     let mut remarks = Vec::new();
     for (table, own) in shapes.chain(all("emitter").map(|table| (table, EMITTER_KEYS))) {
         for name in shared(own) {
-            let (Some(mine), Some((_, force, keys))) = (given(table, own, name), owner(all("force"), name)) else {
+            let (Some(mine), Some((_, force, keys))) = (given(table, own, name), first_with(all("force"), name)) else {
                 continue;
             };
             let preset = || force.presets(keys).find(|(_, (key, _))| *key == name).map(|(_, (_, value))| value.clone());

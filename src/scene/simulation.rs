@@ -165,7 +165,7 @@ fn until_redshift<'a>(
 ) -> Option<f64> {
     let redshift = value::number(&entry.node, "until_redshift", Kind::Number, "a redshift above -1", report)?;
     let place = &entry.node.place;
-    let universe = shared::owner(forces, "hubble").map(|(_, table, keys)| {
+    let universe = shared::first_with(forces, "hubble").map(|(_, table, keys)| {
         // What is wrong with the force is reported where it is read.
         gravity::expansion(&table.settings(keys, &["kind"], &mut Report::default()))
     });
@@ -181,7 +181,8 @@ fn until_redshift<'a>(
     let start = 1.0 / expansion.start - 1.0;
     let fault =
         Fault::at(place, format!("`until_redshift` is {redshift:?}, and the run starts at redshift {start:.6}"));
-    report.push(fault.label("choose one below that of the start, and above -1"));
+    report
+        .push(fault.label("choose one below that of the start, and well above -1, where the scale factor is infinite"));
     None
 }
 

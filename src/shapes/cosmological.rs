@@ -20,11 +20,15 @@ pub const COSMOLOGICAL: Shape = Shape {
     build,
     amount: |settings| Amount::of(settings.number("count_per_side").powi(3)),
     parts: one_part,
-    resolution: Resolution::Cube { key: "count_per_side", least: 2 },
+    resolution: Resolution::Cube { key: "count_per_side", least: 3 },
 };
 
 const KEYS: &[Key] = &[
-    Key::required("count_per_side", Kind::Count, "particles along each side of the cube"),
+    Key::required(
+        "count_per_side",
+        Kind::Count,
+        "particles along each side of the cube, 3 to 464; soonest made where it has small factors, such as 2, 3 and 5",
+    ),
     Key::required("side", Kind::Positive, "the side of the cube, comoving [length]"),
     Key::new(
         "g",
@@ -67,7 +71,12 @@ const KEYS: &[Key] = &[
         Value::Number(0.8),
         "the root mean square of the density contrast in balls of 8 Mpc/h today, in linear theory",
     ),
-    Key::new("spectral_index", Kind::Number, Value::Number(0.96), "n of the primordial power spectrum k^n"),
+    Key::new(
+        "spectral_index",
+        Kind::Number,
+        Value::Number(0.96),
+        "the index of the primordial power spectrum, k to this power: above -3 and below 4",
+    ),
     Key::new(
         "omega_baryon",
         Kind::NotNegative,
@@ -75,7 +84,11 @@ const KEYS: &[Key] = &[
         "the part of omega_matter that is baryons, for the power spectrum",
     ),
     Key::new("h", Kind::Positive, Value::Number(0.7), "Hubble's constant in 100 km/s/Mpc, for the power spectrum"),
-    Key::new("megaparsec", Kind::Positive, Value::Number(1.0), "the length of 1 Mpc/h [length]"),
+    Key::required(
+        "megaparsec",
+        Kind::Positive,
+        "how long 1 Mpc/h is in the unit of the scene: 1, or 1000 where lengths are in kpc/h [length]",
+    ),
     Key::new(
         "order",
         Kind::Choice(&["second", "first"]),
@@ -87,15 +100,24 @@ const KEYS: &[Key] = &[
     PARTICLE_SIZE,
 ];
 
-/// The most particles along a side: a thousand million, whose waves take 16 GB.
-const MOST: f64 = 1024.0;
+/// Particles along a side: so many that a wave fits, and no more than 100 million in all, whose fields take some 20 GB.
+const SIDES: std::ops::RangeInclusive<f64> = 3.0..=464.0;
 
-/// `count_per_side`³ particles, the middle of the cube at `center`; x runs fastest.
+/// `count_per_side`³ particles, the middle of the cube at `center`; x runs fastest. The first lattice point is the lowest corner, so that those of a coarser
+/// lattice are among those of a finer one.
 fn build(settings: &Settings) -> Result<State, Error> {
     let reader = Reader { shape: "cosmological", settings };
     let count = settings.number("count_per_side");
-    if !(2.0..=MOST).contains(&count) {
-        return Err(reader.error(&format!("count_per_side is {count}; it must be a whole number from 2 to {MOST}")));
+    if !SIDES.contains(&count) {
+        let (least, most) = (SIDES.start(), SIDES.end());
+        return Err(
+            reader.error(&format!("count_per_side is {count}; it must be a whole number from {least} to {most}"))
+        );
+    }
+    if settings.number("hubble") <= 0.0 {
+        return Err(
+            reader.error("hubble is 0: give it to the force gravity, whose space then expands, or to the shape")
+        );
     }
     let (side, g) = (reader.positive("side")?, reader.positive("g")?);
     let [hubble, matter, megaparsec, sigma] =
@@ -108,7 +130,7 @@ fn build(settings: &Settings) -> Result<State, Error> {
     let spectrum = Spectrum::new(&cosmology, baryons?, h?, index?, sigma).map_err(of_shape)?;
     let a = scale_factor(reader.not_negative("redshift")?);
     let (center, radius) = (reader.vector("center")?, reader.not_negative("particle_size")?);
-    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "whole, and at most 1024")]
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "whole, and at most 464")]
     let points = count as usize;
     let (_, mut particles) = reader.room_for((points as u64).pow(3))?;
     // Lengths in Mpc/h, and the powers of today.
@@ -123,7 +145,7 @@ fn build(settings: &Settings) -> Result<State, Error> {
     let speed = a * a * cosmology.rate(a);
     let rate = cosmology.growth_rate(a);
     let mass = cosmology.mean_density(g) * side * side * side / (count * count * count);
-    let (spacing, middle) = (side / count, 0.5 * (count - 1.0));
+    let (spacing, middle) = (side / count, 0.5 * count);
     for (place, one) in made.first.iter().enumerate() {
         let at = [place % points, place / points % points, place / (points * points)];
         let lattice = DVec3::from_array(at.map(|n| n as f64 - middle)) * spacing;

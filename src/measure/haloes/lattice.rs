@@ -21,7 +21,7 @@ const FEW: usize = 64;
 ///
 /// Sorting takes O(N log N). Each cell looks at the occupied ones up to two away on each side. Two that chains join already are passed over, and
 /// a join ends with the first pair, so that it does not matter how many particles a cell has. Of two cells that no chain joins, particles
-/// within the linking length of the box around the others are tried with each other: these are many only where two dense crowds face each
+/// within the linking length of the box around the others are tried with each other: these are many only where two dense clumps lie beside each
 /// other at little more than that.
 pub(super) fn groups(places: &[DVec3], bounds: &Bounds, distance: f64, members: u64) -> Vec<Vec<usize>> {
     if places.is_empty() || distance <= 0.0 {
@@ -253,7 +253,7 @@ mod tests {
         let mixed = Bounds { sides: [Side::Periodic, Side::Open, Side::Reflecting], ..solid };
         [solid, flat, open(solid), open(flat), mixed]
     }
-    /// Particles in a box, which crowd at its lowest corner if the power is above 1.
+    /// Particles in a box, which are densest at its lowest corner if the power is above 1.
     fn gas(bounds: &Bounds, count: u32, seed: u32, power: i32) -> Vec<DVec3> {
         let one = |i: u32| {
             let [x, y, z, _] = pcg4d([i, seed, 0, 7]).map(|word| fraction(word).powi(power));
@@ -311,14 +311,14 @@ mod tests {
     }
     /// Two times 10 000 in a third of a linking length each, of which 10⁸ pairs would be tried one by one.
     #[test]
-    fn crowds_are_joined_by_what_faces_the_other() {
-        let crowd = |seed: u32, from: f64| {
+    fn clumps_are_joined_by_their_nearest_particles() {
+        let clump = |seed: u32, from: f64| {
             let small = Bounds::new(DVec3::ZERO, DVec3::splat(0.3), Side::Open);
             gas(&small, 10_000, seed, 1).into_iter().map(move |x| x + DVec3::new(from, 0.0, 0.0))
         };
         // Some hundreds on each side lie so near to the faces that they are nearer than 1 to those opposite.
         for (from, want) in [(1.25, vec![20_000]), (1.35, vec![10_000; 2])] {
-            let places: Vec<DVec3> = crowd(1, 0.0).chain(crowd(2, from)).collect();
+            let places: Vec<DVec3> = clump(1, 0.0).chain(clump(2, from)).collect();
             let sizes: Vec<usize> = groups(&places, &Bounds::default(), 1.0, 1).iter().map(Vec::len).collect();
             assert_eq!(sizes, want);
         }

@@ -17,6 +17,10 @@ const BEGINNINGS: &[(&str, &str)] = &[
         "[simulation]\ndt = 0.01\nsteps = 10\n[[particles]]\nbodies = [{ position = [0, 0, 0], mass = 1 }, { position = [1, 0, 0], mass = 1 }]\n",
     ),
     (
+        "universe",
+        "[simulation]\ndt = 0.005\nuntil_redshift = 0\n[box]\nlow = [-8, -8, -8]\nsize = [16, 16, 16]\n[[particles]]\nshape = \"cosmological\"\ncount_per_side = 8\nside = 16\nmegaparsec = 1\n[[force]]\nkind = \"gravity\"\nhubble = 10\nimages = \"ewald\"\n",
+    ),
+    (
         "fluid",
         "[simulation]\ndt = 0.001\nsteps = 10\n[[particles]]\nshape = \"block\"\nsize = [0.5, 0.5, 0.5]\nspacing = 0.1\ndensity = 1000\n",
     ),

@@ -1,6 +1,7 @@
 //! The scenes that come with the program.
 
 use glam::DVec3;
+use motes::cosmology::Cosmology;
 use motes::scene::{Options, SCENES, Scene, Source};
 use motes::{Cpu, Simulation};
 
@@ -234,4 +235,36 @@ fn birds_come_together_and_fish_flee() {
     let few = ["particles.0.count=400", "force.0.range=1.0"];
     let [first, last] = smaller("fish_school", &few, 150);
     assert!(last.neighbors > 1.3 * first.neighbors, "{first:?} {last:?}");
+}
+
+/// A run that ends by redshift has whole steps to its time, and the shape has the universe of the force.
+#[test]
+fn a_run_ends_at_a_redshift() {
+    for (set, redshift) in [("simulation.until_redshift=0", 0.0), ("simulation.until_redshift=3.5", 3.5)] {
+        let source = Source::find("cosmic_web").expect("a scene");
+        let sets = [set.to_owned(), "particles.0.count_per_side=6".to_owned(), "force.0.redshift=11".to_owned()];
+        let scene = Scene::load(&source, &sets, &Options::default()).unwrap_or_else(|faults| panic!("{faults}"));
+        let universe = Cosmology::new(100.0, 0.3, 0.7).expect("a universe");
+        let end = universe.time(1.0 / 12.0, 1.0 / (1.0 + redshift));
+        assert!(
+            (scene.dt * scene.steps as f64 / end - 1.0).abs() < 1e-12 && scene.dt <= 0.0005,
+            "{} {}",
+            scene.dt,
+            scene.steps
+        );
+        assert!((scene.until / end - 1.0).abs() < 1e-12);
+        let mass: f64 = scene.particles.mass().iter().sum();
+        assert!((mass / (universe.mean_density(43.0071) * 64.0_f64.powi(3)) - 1.0).abs() < 1e-12);
+        // Displacements are those of redshift 11, and velocities a² H f times them to first order.
+        let a: f64 = 1.0 / 12.0;
+        let rate = a * a * universe.rate(a) * universe.growth_rate(a);
+        let spacing = 64.0 / 6.0;
+        let (mut along, mut square) = (0.0, 0.0);
+        for (x, v) in scene.particles.position().iter().zip(scene.particles.velocity()) {
+            let moved = *x - (*x / spacing).round() * spacing;
+            along += v.dot(moved) / rate;
+            square += moved.length_squared();
+        }
+        assert!((along / square - 1.0).abs() < 0.02, "{}", along / square);
+    }
 }

@@ -117,11 +117,12 @@ fn a_faulty_file_points_at_its_name_and_is_the_files_fault() {
 
 #[test]
 fn files_are_moved_by_center_and_velocity() {
-    let entry = "file = \"bodies.csv\"\ncenter = [10, 0, 0]\nvelocity = [0, 5, 0]";
-    let files: &[(&str, &[u8])] = &[("scene.toml", &particles(entry)), ("bodies.csv", b"x,y,z\n1,2,3\n")];
+    let entry = "file = \"bodies.csv\"\ncenter = [10, 0, 0]\nvelocity = [0, 5, 0]\nvelocity_factor = 0.5";
+    let files: &[(&str, &[u8])] =
+        &[("scene.toml", &particles(entry)), ("bodies.csv", b"x,y,z,vx,vy,vz\n1,2,3,4,2,1\n")];
     let scene = report_in(files, &Options::default()).expect("a good scene");
     assert_eq!(scene.particles.position()[0].to_array(), [11.0, 2.0, 3.0]);
-    assert_eq!(scene.particles.velocity()[0].to_array(), [0.0, 5.0, 0.0]);
+    assert_eq!(scene.particles.velocity()[0].to_array(), [2.0, 6.0, 0.5]);
     assert_eq!(scene.name, "scene");
 }
 
