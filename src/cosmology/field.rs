@@ -186,7 +186,7 @@ mod tests {
             let n = i32::try_from(points).expect("few");
             for (k, size) in [(p, a), (q, b)] {
                 for sign in [1, -1] {
-                    let at = k.map(|k| usize::try_from((sign * k).rem_euclid(n)).expect("a place"));
+                    let at = k.map(|k: i32| usize::try_from((sign * k).rem_euclid(n)).expect("a place"));
                     waves[at[0] + points * (at[1] + points * at[2])].re += 0.5 * size;
                 }
             }

@@ -102,16 +102,16 @@ fn step(setup: &Setup, expands: &Expands, steps: u64) -> Option<Remark> {
     if part <= LONGEST {
         return None;
     }
-    let good = plain(setup.dt * 0.5 * LONGEST / part);
+    let good = setup.dt * 0.5 * LONGEST / part;
     let text = format!(
         "a step of dt = {} is {part:.3} of ln a at redshift {:.2}: growth is not resolved",
-        setup.dt,
-        1.0 / a - 1.0
+        plain(setup.dt),
+        1.0 / a - 1.0 + 1e-9
     );
     Some(
         Remark::warning("long-expansion", text)
             .with("part", part)
-            .advice(format!("set dt = {good} or less, or end the run earlier")),
+            .advice(format!("set dt = {good:.1e} or less, or end the run earlier")),
     )
 }
 

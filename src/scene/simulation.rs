@@ -169,6 +169,9 @@ fn until_redshift<'a>(
         // What is wrong with the force is reported where it is read.
         gravity::expansion(&table.settings(keys, &["kind"], &mut Report::default()))
     });
+    if matches!(universe, Some(Err(_))) {
+        return None;
+    }
     let Some(Ok(Some(expansion))) = universe else {
         let fault = Fault::at(place, "`until_redshift` needs a space that expands");
         report.push(fault.label("give the force gravity a valid `hubble` above 0, or this run `until` or `steps`"));

@@ -166,8 +166,8 @@ typed! {
         particle_size: f64,
     }
     /// The matter of an expanding universe at a redshift, a periodic cube of particles of one mass in comoving coordinates: a lattice displaced by a random field with the power spectrum of cold dark matter (Eisenstein & Hu 1998), to first or second order (Zel'dovich 1970; Bouchet et al. 1995).
-    Cosmological "cosmological" cosmological(count_per_side: u32, side: f64) {
-        /// Particles along each side of the cube.
+    Cosmological "cosmological" cosmological(count_per_side: u32, side: f64, megaparsec: f64) {
+        /// Particles along each side of the cube, 3 to 464; soonest made where it has small factors, such as 2, 3 and 5.
         count_per_side: u32,
         /// The side of the cube, comoving \[length\].
         side: f64,
@@ -183,13 +183,13 @@ typed! {
         redshift: f64,
         /// The root mean square of the density contrast in balls of 8 Mpc/h today, in linear theory.
         sigma_8: f64,
-        /// N of the primordial power spectrum k^n.
+        /// The index of the primordial power spectrum, k to this power: above -3 and below 4.
         spectral_index: f64,
         /// The part of omega_matter that is baryons, for the power spectrum.
         omega_baryon: f64,
         /// Hubble's constant in 100 km/s/Mpc, for the power spectrum.
         h: f64,
-        /// The length of 1 Mpc/h \[length\].
+        /// How long 1 Mpc/h is in the unit of the scene: 1, or 1000 where lengths are in kpc/h \[length\].
         megaparsec: f64,
         /// The order of the displacements: "first" for those of Zel'dovich: second, first.
         order: Cow<'static, str>,
