@@ -160,7 +160,10 @@ mod tests {
             let dt = universe.time(start, 3.0) / f64::from(steps);
             for n in 0..steps {
                 let found = made.scale_factor(dt * f64::from(n));
-                assert!((found / a - 1.0).abs() < if start > 0.005 { 2.5e-7 } else { 6e-7 }, "{matter} {lambda} {start}: a = {a}, found {found}");
+                assert!(
+                    (found / a - 1.0).abs() < if start > 0.005 { 2.5e-7 } else { 6e-7 },
+                    "{matter} {lambda} {start}: a = {a}, found {found}"
+                );
                 let k1 = slope(a);
                 let k2 = slope(a + 0.5 * dt * k1);
                 let k3 = slope(a + 0.5 * dt * k2);
