@@ -26,9 +26,16 @@ fn settings(name: &str, values: &[(&'static str, f64)]) -> Settings {
     let numbers = [("columns", 6.0), ("rows", 5.0), ("strands", 4.0), ("beads", 4.0), ("hubble", 1.5)];
     // What has no spacing or density by itself.
     let lacks = |(name, _): &(&str, f64)| known(name).is_some_and(|key| key.default.is_none());
-    let given = [("spacing", 0.5), ("density", 0.8), ("radius", 0.25), ("count_per_side", 6.0), ("side", 40.0)]
-        .into_iter()
-        .filter(lacks);
+    let given = [
+        ("spacing", 0.5),
+        ("density", 0.8),
+        ("radius", 0.25),
+        ("count_per_side", 6.0),
+        ("side", 40.0),
+        ("megaparsec", 1.0),
+    ]
+    .into_iter()
+    .filter(lacks);
     let numbers = numbers.into_iter().chain(given).chain(values.iter().copied());
     let all = vectors.into_iter().chain(numbers.map(|(key, x)| (key, Value::Number(x))));
     let fits = all.filter(|(key, _)| known(key).is_some());

@@ -258,6 +258,7 @@ fn matter_of_one_redshift_becomes_that_of_another() {
             let values = [
                 ("count_per_side", Value::Number(16.0)),
                 ("side", Value::Number(side)),
+                ("megaparsec", Value::Number(1.0)),
                 ("g", Value::Number(G)),
                 ("hubble", Value::Number(HUBBLE)),
                 ("redshift", Value::Number(redshift)),
@@ -298,8 +299,15 @@ fn the_cosmic_energy_is_constant() {
     for seed in [1.0, 2.0] {
         let shape = motes::shapes::shape("cosmological").expect("a shape");
         let mut settings = motes::settings::Settings::defaults(shape.keys);
-        let values =
-            [("count_per_side", 8.0), ("side", side), ("g", G), ("hubble", HUBBLE), ("redshift", 24.0), ("seed", seed)];
+        let values = [
+            ("count_per_side", 8.0),
+            ("side", side),
+            ("megaparsec", 1.0),
+            ("g", G),
+            ("hubble", HUBBLE),
+            ("redshift", 24.0),
+            ("seed", seed),
+        ];
         settings.0.extend(values.map(|(key, x)| (key, Value::Number(x))));
         settings.0.insert("center", Value::Vector(DVec3::splat(0.5 * side)));
         let (steps, per) = (400_u32, 2_u32);
