@@ -90,7 +90,7 @@ fn the_bits_never_change() {
         ("disk", 0x6c6c_7862_37bc_89f1),
         ("clusters", 0x8f8b_9f69_a873_c01d),
         ("lattice", 0x138f_3cc1_8be2_c72b),
-        ("cosmological", 0x6425_ddee_1833_2867),
+        ("cosmological", 0xc762_e704_9080_2f02),
         ("crystal", 0x5f54_3f93_4702_0947),
         ("block", 0x189e_3f26_e44a_3f45),
         ("drop", 0x52f4_acbd_0571_4f25),
