@@ -115,7 +115,7 @@ pub fn all(shared: &Shared, device: &Device, stages: &mut Vec<Stage>) {
     let machine = Machine::HOST;
     let problem = |machine, count: usize| Problem::new(u32::try_from(count).expect("few"), machine).at(&[], cube());
     // In a space that expands, and in one that does not.
-    for (accuracy, hubble) in [(COARSE, 0.0), (FINE, 0.0), (COARSE, 2.0)] {
+    for (accuracy, hubble) in [(COARSE, 0.0), (FINE, 0.0), (COARSE, 2.0), (FINE, 2.0)] {
         let mut plan = Plan::default();
         gravity("pairs", accuracy, hubble)[0]
             .stage(motes::component::Stage::Evaluate { earlier: 0 }, &mut plan, &problem(machine, FEW))
