@@ -89,7 +89,7 @@ impl Fourier {
             to[0] = from[0];
             return;
         }
-        let parts = (2..).take_while(|p| p * p <= n).find(|p| n % p == 0).unwrap_or(n);
+        let parts = (2..n).take_while(|p| p * p <= n).find(|p| n.is_multiple_of(*p)).unwrap_or(n);
         let length = n / parts;
         for part in 0..parts {
             self.sum(&from[part * stride..], stride * parts, &mut to[part * length..][..length], turn * parts);

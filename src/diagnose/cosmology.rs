@@ -1,7 +1,7 @@
 //! Universes whose matter is not that of the particles, times at which they have no scale factor, and forces that expand with nothing.
 
 use super::Remark;
-use crate::component::Expands;
+use crate::component::{Component, Expands};
 use crate::kernel::ACCELERATION;
 use crate::settings::plain;
 use crate::simulation::Setup;
@@ -41,11 +41,11 @@ fn others(setup: &Setup, all: &[Expands]) -> Option<Remark> {
             Remark::warning("universes", text).advice("give all of them the same hubble, densities and redshift"),
         );
     }
-    let accelerates = |force: &&Box<dyn crate::forces::Component>| {
+    let accelerates = |force: &&dyn Component| {
         force.properties().expands.is_none()
             && force.laws().iter().any(|law| law.into.iter().any(|name| *name == ACCELERATION.name))
     };
-    let names: Vec<&str> = setup.forces.iter().filter(accelerates).map(|force| force.name()).collect();
+    let names: Vec<&str> = setup.forces.iter().map(AsRef::as_ref).filter(accelerates).map(Component::name).collect();
     let first = names.first()?;
     let text = format!(
         "the force `{first}` acts beside gravity in an expanding space, and does not expand with it: it is a force of comoving positions in supercomoving \

@@ -51,11 +51,12 @@ pub(super) fn first_with<'a>(
 }
 
 /// The settings that forces give to shapes and emitters.
-pub(super) fn said<'a>(tables: impl Iterator<Item = &'a Table<'a>> + Clone) -> Vec<Entry> {
+pub(super) fn said<'a>(tables: impl Iterator<Item = &'a Table<'a>>) -> Vec<Entry> {
+    let tables: Vec<_> = tables.collect();
     let mut all: Vec<Entry> = Vec::new();
-    for name in tables.clone().filter_map(force_keys).flat_map(shared) {
+    for name in tables.iter().copied().filter_map(force_keys).flat_map(shared) {
         let Some((_, table, keys)) =
-            first_with(tables.clone(), name).filter(|_| !all.iter().any(|entry| entry.key == name))
+            first_with(tables.iter().copied(), name).filter(|_| !all.iter().any(|entry| entry.key == name))
         else {
             continue;
         };

@@ -287,7 +287,7 @@ fn forces<B: Backend>(view: &mut View<B>, ui: &mut Ui) {
             continue;
         }
         let title = egui::RichText::new(name.replace('_', " "));
-        CollapsingHeader::new(title).id_salt(&name).default_open(settings.len() <= 12).show(ui, |ui| {
+        CollapsingHeader::new(title).id_salt(&name).default_open(settings.len() <= 14).show(ui, |ui| {
             sliders::show(ui, &name, &settings, &scene, &mut view.actions);
         });
     }
