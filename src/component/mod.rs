@@ -126,6 +126,8 @@ pub struct Setting<'a> {
     pub default: Option<&'a Value>,
     /// One line: what it means, and its unit.
     pub about: &'a str,
+    /// Whether particles of a scene have it from the force.
+    pub shared: bool,
     /// The present value.
     pub value: &'a Value,
 }

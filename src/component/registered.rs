@@ -40,7 +40,15 @@ impl Component for Registered {
         let one = |key: &'static Key| {
             let value = self.settings.0.get(key.name)?;
             let Key { name, kind, about, .. } = key;
-            Some(Setting { table: None, name, kind: *kind, default: key.default.as_ref(), about, value })
+            Some(Setting {
+                table: None,
+                name,
+                kind: *kind,
+                default: key.default.as_ref(),
+                about,
+                shared: key.shared,
+                value,
+            })
         };
         self.keys.iter().filter_map(one).collect()
     }

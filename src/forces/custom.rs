@@ -101,7 +101,7 @@ impl Component for Custom {
         };
         let one = |(name, value)| {
             let (kind, about) = (kind(value), "a parameter of the law");
-            Setting { table: Some("params"), name, kind, default: None, about, value }
+            Setting { table: Some("params"), name, kind, default: None, about, shared: false, value }
         };
         self.params.iter().map(|(name, value)| one((name.as_str(), value))).collect()
     }

@@ -287,7 +287,9 @@ fn forces<B: Backend>(view: &mut View<B>, ui: &mut Ui) {
             continue;
         }
         let title = egui::RichText::new(name.replace('_', " "));
-        CollapsingHeader::new(title).id_salt(&name).default_open(settings.len() <= 14).show(ui, |ui| {
+        // What particles have from a force is hardly changed by hand.
+        let few = settings.iter().filter(|setting| !setting.shared).count() <= 12;
+        CollapsingHeader::new(title).id_salt(&name).default_open(few).show(ui, |ui| {
             sliders::show(ui, &name, &settings, &scene, &mut view.actions);
         });
     }
