@@ -60,7 +60,7 @@ impl Image {
 impl Picture {
     /// The time in words, or the redshift.
     fn moment(&self, time: f64) -> String {
-        match self.expansion() {
+        match &self.expansion {
             // To the digits that are worth something, and no −0 at the end of a run.
             Some(expansion) => format!("z = {:.2}", (1.0 / expansion.scale_factor(time) - 1.0 + 1e-9).max(-1.0)),
             None => format!("t = {}", number(time)),

@@ -34,7 +34,7 @@ pub struct Picture {
     /// The style, by its name in the register.
     style: &'static str,
     /// The expansion of space, of which notes have the redshift in place of the time.
-    expansion: Option<Arc<Expansion>>,
+    pub expansion: Option<Arc<Expansion>>,
     /// Whether notes are written on it.
     annotated: bool,
     /// Whether some may not be active, which are not drawn.
@@ -236,9 +236,6 @@ impl Picture {
     #[cfg(test)]
     pub(super) fn styled(self, style: &'static str) -> Self {
         Self { style, ..self }
-    }
-    pub(super) fn expansion(&self) -> Option<&Expansion> {
-        self.expansion.as_deref()
     }
     pub(super) fn style(&self) -> &'static dyn Style {
         STYLES.iter().find(|entry| entry.name == self.style).map_or(STYLES[0].style, |entry| entry.style)
