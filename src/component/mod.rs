@@ -290,7 +290,7 @@ pub struct Properties {
     pub has_waves: bool,
     /// The column, a scalar, whose sum over all particles a uniform background neutralizes.
     pub neutralized: Option<&'static str>,
-    /// The expansion of space in whose comoving coordinates it acts.
+    /// The expansion of space, where its forces are those of comoving coordinates.
     pub expands: Option<Expands>,
     /// A remark for the user before a run.
     pub caution: Option<&'static str>,

@@ -4,7 +4,7 @@ use super::{Cosmology, integral};
 use crate::error::Error;
 
 /// The constants of a shader that computes the scale factor: the time left before a is infinite, and the coefficients of its polynomial.
-pub const CONSTANTS: [&str; 1 + TERMS] = [
+const CONSTANTS: [&str; 1 + TERMS] = [
     "LEFT", "A_0", "A_1", "A_2", "A_3", "A_4", "A_5", "A_6", "A_7", "A_8", "A_9", "A_10", "A_11", "A_12", "A_13",
     "A_14", "A_15", "A_16", "A_17", "A_18", "A_19", "A_20", "A_21", "A_22", "A_23", "A_24", "A_25", "A_26", "A_27",
 ];
@@ -116,7 +116,7 @@ impl Expansion {
     pub fn end(&self) -> f64 {
         self.left
     }
-    /// The values of [`CONSTANTS`].
+    /// Values for the overrides of `law/expansion.wgsl`, by name.
     #[must_use]
     pub fn constants(&self) -> Vec<(&'static str, f64)> {
         let values = std::iter::once(self.left).chain(self.terms);

@@ -82,7 +82,7 @@ impl Fourier {
         room.copy_from_slice(line);
         self.sum(room, 1, line, 1);
     }
-    /// The sums of every `stride`th number, whose roots are every `turn`th.
+    /// The sums of every `stride`th number, with every `turn`th root.
     fn sum(&self, from: &[Complex], stride: usize, to: &mut [Complex], turn: usize) {
         let n = to.len();
         if n == 1 {

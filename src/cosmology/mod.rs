@@ -11,7 +11,7 @@ mod fourier;
 mod growth;
 mod spectrum;
 
-pub use expansion::{CONSTANTS, Expansion};
+pub use expansion::Expansion;
 pub use field::displacements;
 pub use spectrum::Spectrum;
 

@@ -1,4 +1,4 @@
-//! Universes whose matter is not that of the particles, times at which they have no scale factor, and forces that expand with nothing.
+//! Universes with other matter than that of the particles, times at which they have no scale factor, and forces that do not expand with space.
 
 use super::Remark;
 use crate::component::{Component, Expands};

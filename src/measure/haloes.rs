@@ -13,6 +13,7 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 use super::{Cell, Measure, Moment, Row, Series, Times};
+use crate::boundary::wrapped;
 use crate::error::Error;
 use crate::kernel::Bounds;
 use crate::settings::{Key, Kind, Value};
@@ -90,18 +91,6 @@ fn spacing(bounds: &Bounds, count: usize) -> Option<f64> {
     let sides = &period[..axes];
     let each = sides.iter().product::<f64>() / count as f64;
     sides.iter().all(|side| *side > 0.0).then(|| if axes == 2 { each.sqrt() } else { each.cbrt() })
-}
-
-/// The image of a position inside the box.
-fn wrapped(bounds: &Bounds, x: DVec3) -> DVec3 {
-    let (low, high, period) = (bounds.low, bounds.high, bounds.period());
-    let y = x - period * ((x - low) * bounds.frequency()).floor();
-    let inside = |axis: usize| {
-        // Rounding may put it upon the upper side.
-        let beyond = period[axis] > 0.0 && !(low[axis]..high[axis]).contains(&y[axis]);
-        if beyond { low[axis] } else { y[axis] }
-    };
-    DVec3::new(inside(0), inside(1), inside(2))
 }
 
 /// Groups of a run.
