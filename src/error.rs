@@ -91,6 +91,23 @@ pub enum Error {
         /// The limiting particle.
         particle: String,
     },
+    /// Forces require a block time step that is shorter than the shortest. Remedy: more levels, a shorter step, or a larger softening.
+    #[error(
+        "step {step} would have to be {wanted:.3e} long for particle {particle}, and the shortest block time step is dt / 2^{levels} = {least:.3e}: \
+         set more block_levels, a smaller dt, a larger block_eta, or a larger softening"
+    )]
+    TooManyLevels {
+        /// The step, counted from 0.
+        step: u64,
+        /// The lowest particle that requires it.
+        particle: u32,
+        /// The shortest length required, a power of two of dt \[time\].
+        wanted: f64,
+        /// The shortest length there is \[time\].
+        least: f64,
+        /// The largest level.
+        levels: u32,
+    },
     /// A particle has more neighbours than a neighbour search or a tree walk can visit. Remedy: a shorter range, or a larger
     /// opening angle.
     #[error(
@@ -187,6 +204,7 @@ impl Error {
             | Self::Runaway { .. }
             | Self::TooManyNeighbors { .. }
             | Self::TooShort { .. }
+            | Self::TooManyLevels { .. }
             | Self::CutShort { .. }
             | Self::Endless { .. }
             | Self::ListFull { .. }

@@ -3,6 +3,7 @@
 mod adaptive_step;
 mod alarm;
 mod barostat;
+mod blocks;
 mod columns;
 mod elastic;
 mod fields;
@@ -29,6 +30,7 @@ mod unwritten;
 mod virial;
 
 pub use adaptive_step::Clock;
+pub use blocks::Levels;
 pub use inactive::serves;
 pub use pressures::PressureSolves;
 pub use readback::Readback;

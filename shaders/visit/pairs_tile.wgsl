@@ -13,17 +13,17 @@ fn source(start: u32, k: u32) -> Particle {
 fn pairs(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u, @builtin(local_invocation_index) lane: u32) {
     let mine = folded(group, groups) * (WORKGROUP * TARGETS);
     let i = mine + lane;
-    let a = particle(i);
-    let b = particle(i + WORKGROUP);
-    let c = particle(i + 2u * WORKGROUP);
-    let d = particle(i + 3u * WORKGROUP);
+    let a = target_at(i);
+    let b = target_at(i + WORKGROUP);
+    let c = target_at(i + 2u * WORKGROUP);
+    let d = target_at(i + 3u * WORKGROUP);
     var total_a = resume(group.z, i);
     var total_b = resume(group.z, i + WORKGROUP);
     var total_c = resume(group.z, i + 2u * WORKGROUP);
     var total_d = resume(group.z, i + 3u * WORKGROUP);
 
     let first = span.first + group.z * span.slice;
-    let end = min(min(first + span.slice, span.end), world.count);
+    let end = min(min(first + span.slice, span.end), sources_of(mine));
     for (var start = first; start < end; start += BLOCK) {
         workgroupBarrier();
         tile[lane] = position[min(start + lane, world.count - 1u)];
@@ -32,7 +32,7 @@ fn pairs(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: v
         var sum_b = Sum();
         var sum_c = Sum();
         var sum_d = Sum();
-        let apart = start + BLOCK <= mine || start >= mine + WORKGROUP * TARGETS;
+        let apart = is_apart(start, BLOCK, mine, WORKGROUP * TARGETS);
         if apart && start + BLOCK <= end {
             for (var k = 0u; k < BLOCK; k += 8u) {
                 meet(source(start, k), a, b, c, d, &sum_a, &sum_b, &sum_c, &sum_d);

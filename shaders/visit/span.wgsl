@@ -13,12 +13,12 @@ struct Span { unused_word: u32, first: u32, end: u32, slice: u32 }
 override WHOLE: bool = true;
 
 fn resume(layer: u32, i: u32) -> Sum {
-    if WHOLE || span.first == 0u || i >= world.count { return Sum(); }
+    if WHOLE || span.first == 0u || i >= targets() { return Sum(); }
     return parts[layer * world.capacity + i];
 }
 
 fn deliver(layer: u32, i: u32, sum: Sum) {
-    if i >= world.count { return; }
+    if i >= targets() { return; }
     if WHOLE {
         add(i, sum);
     } else {
@@ -28,7 +28,7 @@ fn deliver(layer: u32, i: u32, sum: Sum) {
 
 // Each of a pair holds half of its potential energy.
 fn add(i: u32, sum: Sum) {
-    conclude(particle(i), 0.5, settled(sum));
+    conclude(target_at(i), 0.5, settled(sum));
 }
 
 // No particle interacts with itself. Both ways are computed and one is kept: a branch would cost more.

@@ -13,7 +13,7 @@ fn meet_body(slot: u32, mine: u32, me: Particle, you: Particle, sum: ptr<functio
 fn walk(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u, @builtin(local_invocation_index) lane: u32) {
     let mine = tree.first / GROUP + folded(group, groups);
     let first = mine * GROUP;
-    if first < last_target() {
+    if first < last_target() && is_wanted(mine) {
         let last = world.count - 1u;
         let k = first + lane;
         let a = target_of(min(k, last));

@@ -4,7 +4,7 @@
 @compute @workgroup_size(WORKGROUP)
 fn walk(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u, @builtin(subgroup_invocation_id) place: u32) {
     let mine = tree.first / GROUP + folded(group, groups);
-    let there = mine * GROUP < last_target();
+    let there = mine * GROUP < last_target() && is_wanted(mine);
     let first = select(tree.first, mine * GROUP, there);
     let last = world.count - 1u;
     let k = first + place;
@@ -32,6 +32,10 @@ fn walk(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: ve
         sum_c = tree_kept[kept + place + 2u * LANES].sum;
         sum_d = tree_kept[kept + place + 3u * LANES].sum;
         search = resumed(vec3u(tree_kept[kept].at, tree_kept[kept + 1u].at, tree_kept[kept + 2u].at));
+        ours = 0u;
+    }
+    if !there {
+        search.more = false;
         ours = 0u;
     }
     let walks = there && (tree.again == 0u || search.more);

@@ -73,6 +73,7 @@ fn load_body(lane: u32, slot: u32) {
 @compute @workgroup_size(WORKGROUP)
 fn walk(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u, @builtin(local_invocation_index) lane: u32) {
     let mine = tree.first / GROUP + folded(group, groups);
+    if !is_wanted(mine) { return; }
     let last = world.count - 1u;
     let k = mine * GROUP + lane;
     let me = target_of(min(k, last));

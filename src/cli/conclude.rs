@@ -35,7 +35,7 @@ pub fn conclude(
         json!({ "steps": last.step, "stopped": end.stopped, "seconds": took.as_secs_f64(),
             "stepping_seconds": end.stepping.as_secs_f64(), "steps_per_second": rate,
             "energy": last.total(), "energy_error": last.drift_from(&first), "worst_energy_error": worst,
-            "adaptive": course::event(clock), "order": flock.map(|(_, last)| last.order), "heat_capacity": heat,
+            "adaptive": course::event(clock), "block_steps": course::levels_event(run.levels.as_ref()), "order": flock.map(|(_, last)| last.order), "heat_capacity": heat,
             "output": output }),
     );
     let say = |text: String| progress.conclude(&text);
@@ -46,6 +46,7 @@ pub fn conclude(
     }
     say(summary::speed(end.steps, count, end.stepping, took));
     clock.map(course::summary).into_iter().for_each(&say);
+    run.levels.as_ref().map(course::levels).into_iter().for_each(&say);
     // The particles of a flock propel themselves: their energy is not meaningful.
     if conserved.energy || flock.is_none() {
         say(summary::energy(rows, &run.looks, conserved));

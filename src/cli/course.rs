@@ -3,7 +3,7 @@
 use motes::kernel::Reason;
 use motes::scene::Scene;
 use motes::settings::plain;
-use motes::simulation::Clock;
+use motes::simulation::{Clock, Levels};
 use serde_json::{Value, json};
 
 /// The number and the length of steps, such as `1000 steps of 0.001`.
@@ -12,7 +12,10 @@ pub fn words(scene: &Scene) -> String {
         Some(adaptive_step) => {
             format!("{} of time in steps of {} to {}", plain(scene.until), plain(adaptive_step.least), plain(scene.dt))
         }
-        None => format!("{} of {}", steps(scene.steps), plain(scene.dt)),
+        None => {
+            let blocks = scene.block_steps.map(|blocks| format!(", in block steps down to dt / {}", blocks.whole()));
+            format!("{} of {}{}", steps(scene.steps), plain(scene.dt), blocks.unwrap_or_default())
+        }
     }
 }
 
@@ -39,7 +42,26 @@ pub fn summary(clock: &Clock) -> String {
     )
 }
 
+/// The work of block time steps, and their levels at the end.
+pub fn levels(levels: &Levels) -> String {
+    let some = |(level, count): (usize, &u64)| (*count > 0).then(|| format!("{count} of dt / {}", 1_u64 << level));
+    let all: Vec<_> = levels.particles.iter().enumerate().filter_map(some).collect();
+    format!(
+        "block steps: {} substeps, {:.1} % of the evaluations of all particles in each; steps at the end: {}",
+        levels.parts,
+        100.0 * levels.work(),
+        all.join(", ")
+    )
+}
+
 /// The same as JSON.
+pub fn levels_event(levels: Option<&Levels>) -> Value {
+    levels.map_or(Value::Null, |levels| {
+        json!({ "substeps": levels.parts, "evaluations": levels.evaluations, "work": levels.work(), "particles": levels.particles })
+    })
+}
+
+/// The steps of a clock as JSON.
 pub fn event(clock: Option<&Clock>) -> Value {
     clock.map_or(Value::Null, |clock| {
         let reasons: serde_json::Map<_, _> =

@@ -245,7 +245,7 @@ fn scale(problem: &Problem, velocities: bool) -> Result<Kernel, Error> {
         }
         Ok(())
     });
-    let indirect = Some(Indirect { field: GO.into(), word: 0 });
+    let indirect = Some(Indirect { field: GO.into(), word: 0, rests: false });
     let pass = Pass { indirect, ..scaling(problem, velocities)? };
     Ok(Kernel {
         name: "box scale".to_owned(),

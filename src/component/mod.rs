@@ -290,6 +290,8 @@ pub struct Properties {
     pub has_waves: bool,
     /// The column, a scalar, whose sum over all particles a uniform background neutralizes.
     pub neutralized: Option<&'static str>,
+    /// The softening length of its forces, by which block time steps are limited \[length\].
+    pub softening: Option<f64>,
     /// The expansion of space, where its forces are those of comoving coordinates.
     pub expands: Option<Expands>,
     /// A remark for the user before a run.

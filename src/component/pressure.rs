@@ -78,7 +78,7 @@ pub(crate) fn kernel(forces: &[Box<dyn Component>], problem: &Problem, every: u3
         for mut pass in part.passes {
             let word = u32::try_from(words.len()).unwrap_or(u32::MAX);
             words.extend(pass.workgroups(problem.machine.workgroups)?);
-            pass.indirect = Some(Indirect { field: GO.into(), word });
+            pass.indirect = Some(Indirect { field: GO.into(), word, rests: false });
             pass.work /= u64::from(every);
             passes.push(pass);
         }

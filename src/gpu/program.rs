@@ -6,7 +6,7 @@ use super::pipeline::{Pipeline, Pipelines};
 use super::repeat::{Gate, Node};
 use super::submit::Queue;
 use crate::error::Error;
-use crate::kernel::{Access, Pass, Plan};
+use crate::kernel::{Access, Flag, Pass, Plan};
 
 /// A plan compiled for a device.
 pub struct Program {
@@ -15,6 +15,20 @@ pub struct Program {
     pub(super) dispatches: Vec<Dispatch>,
     /// The kernel of each that is ready, by its place in the plan; none for what is a loop's own.
     owners: Vec<Option<usize>>,
+    /// Where iterations of loops begin that may not be needed, in the order of dispatches.
+    pub(super) cuts: Vec<Cut>,
+}
+
+/// The place where a later iteration of a loop begins: if the flag of the loop is set, it and all others dispatch nothing.
+pub(super) struct Cut {
+    /// Its first dispatch.
+    pub at: usize,
+    /// The first dispatch after the iterations.
+    pub end: usize,
+    /// The buffer of the flag.
+    pub flag: wgpu::Buffer,
+    /// The byte of the flag.
+    pub byte: u64,
 }
 
 /// A compiled pass.
@@ -22,6 +36,8 @@ struct Ready {
     pipeline: wgpu::ComputePipeline,
     groups: Vec<(u32, wgpu::BindGroup)>,
     workgroups: Workgroups,
+    /// Whether indirect workgroups are zero once its kernel is complete.
+    rests: bool,
     work: u64,
 }
 
@@ -51,7 +67,13 @@ impl Program {
         buffers: &Buffers,
         plan: &Plan,
     ) -> Result<Self, Error> {
-        let program = Self { ready: Vec::new(), arguments: Vec::new(), dispatches: Vec::new(), owners: Vec::new() };
+        let program = Self {
+            ready: Vec::new(),
+            arguments: Vec::new(),
+            dispatches: Vec::new(),
+            owners: Vec::new(),
+            cuts: Vec::new(),
+        };
         let mut builder = Builder { queue, pipelines, buffers, program, kernels: Vec::new() };
         for kernel in &plan.kernels {
             let ready: Result<Vec<_>, _> = kernel.passes.iter().map(|pass| builder.ready(pass, &[])).collect();
@@ -121,8 +143,29 @@ impl Builder<'_> {
             }
         };
         let groups = fault::scoped(&device, || self.groups(pass, &pipeline, own))??;
-        self.program.ready.push(Ready { pipeline: pipeline.pipeline, groups, workgroups, work: pass.work });
+        self.program.ready.push(Ready {
+            pipeline: pipeline.pipeline,
+            groups,
+            workgroups,
+            rests: pass.indirect.as_ref().is_some_and(|its| its.rests),
+            work: pass.work,
+        });
         Ok(self.program.ready.len() - 1)
+    }
+    /// The buffer of a loop's flag.
+    pub fn flag(&self, flag: &Flag) -> Result<wgpu::Buffer, Error> {
+        self.buffers.get(&flag.field).cloned().ok_or_else(|| missing(&flag.field))
+    }
+    /// The number of dispatches so far.
+    pub fn dispatched(&self) -> usize {
+        self.program.dispatches.len()
+    }
+    /// Adds the places where iterations begin, of a loop that ends here.
+    pub fn cut(&mut self, places: Vec<usize>, flag: &wgpu::Buffer, byte: u64) {
+        let end = self.dispatched();
+        let cuts = places.into_iter().map(|at| Cut { at, end, flag: flag.clone(), byte });
+        self.program.cuts.extend(cuts);
+        self.program.cuts.sort_by_key(|cut| (cut.at, std::cmp::Reverse(cut.end)));
     }
     /// Adds a buffer of arguments, and returns its index.
     pub fn arguments(&mut self, buffer: wgpu::Buffer) -> usize {
@@ -146,6 +189,7 @@ impl Builder<'_> {
         let workgroups = match (gate, known) {
             (None, _) => ready.workgroups,
             (Some(gate), Some(known)) => gate.workgroups(known)?,
+            (Some(_), None) if ready.rests => ready.workgroups,
             (Some(_), None) => {
                 return Err(Error::Device("a kernel with indirect arguments of its own runs in a loop".to_owned()));
             }

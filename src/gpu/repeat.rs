@@ -21,6 +21,8 @@ pub(super) enum Node {
 pub(super) struct Repeat {
     most: u32,
     body: Vec<Node>,
+    /// The buffer and the byte of the flag that ends it.
+    flag: (wgpu::Buffer, u64),
     /// The distinct workgroup counts of its dispatches.
     workgroups: Vec<[u32; 3]>,
     /// The arguments of odd iterations, and of even ones.
@@ -49,7 +51,11 @@ impl Gate<'_> {
 impl Repeat {
     /// Adds all iterations: the first is dispatched like the loop itself, each of the others depends on the one before it.
     pub fn encode(&self, builder: &mut Builder<'_>, outer: Option<&Gate<'_>>) -> Result<(), Error> {
+        let mut places = Vec::new();
         for iteration in 0..self.most {
+            if iteration > 0 {
+                places.push(builder.dispatched());
+            }
             let parity = usize::from(iteration % 2 == 0);
             let offset = EACH * self.workgroups.len() as u64 * u64::from(iteration.saturating_sub(1) / 2);
             let own = Gate { arguments: self.arguments[parity], offset, workgroups: &self.workgroups };
@@ -59,6 +65,7 @@ impl Repeat {
                 builder.dispatch(self.proceed[1 - parity], gate)?;
             }
         }
+        builder.cut(places, &self.flag.0, self.flag.1);
         if self.most > 1 { builder.dispatch(self.reset, outer) } else { Ok(()) }
     }
 }
@@ -95,7 +102,8 @@ impl Builder<'_> {
         let proceed = [control(proceed(until, words, slots)?, &odd)?, control(proceed(until, words, slots)?, &even)?];
         let reset = control(reset(all)?, &odd)?;
         let arguments = [self.arguments(odd), self.arguments(even)];
-        Ok(Repeat { most, body, workgroups, arguments, proceed, reset })
+        let flag = (self.flag(until)?, 4 * u64::from(until.word));
+        Ok(Repeat { most, body, flag, workgroups, arguments, proceed, reset })
     }
     /// The distinct workgroup counts of all dispatches.
     fn collect(&self, body: &[Node], all: &mut Vec<[u32; 3]>) {

@@ -11,9 +11,9 @@ use web_time::Instant;
 
 use super::done::Done;
 use super::fault;
-use super::program::{Dispatch, Program};
+use super::program::{Cut, Dispatch, Program};
 #[cfg(not(target_arch = "wasm32"))]
-use super::read::LOOK;
+use super::read::{LOOK, request};
 use crate::error::Error;
 
 /// The maximum number of submissions in flight: one that runs, one that waits.
@@ -22,6 +22,17 @@ const IN_FLIGHT: usize = 2;
 const LAUNCH: u64 = 20_000;
 /// The work of the first submission to a device of unknown speed, in pair evaluations: 0.1 s on a slow one.
 const FIRST: u64 = 50_000_000;
+
+/// In loops, a flag is read after so much of the work of a submission: reading takes less than a hundredth of that, and iterations that are not
+/// needed, which dispatch nothing but take their time in a submission, are few.
+const LOOKS: u64 = 4;
+
+/// Dispatches of the next submission, and their work.
+#[derive(Default)]
+struct Batch<'a> {
+    dispatches: Vec<&'a Dispatch>,
+    work: u64,
+}
 
 /// A submission in flight, and its work in pair evaluations.
 struct Flying {
@@ -71,17 +82,57 @@ impl Queue {
 
     /// Runs a program a number of times, in as many submissions as necessary.
     pub fn run(&mut self, program: &Program, times: u32) -> Result<(), Error> {
-        let mut todo = (0..times).flat_map(|_| &program.dispatches).peekable();
-        while todo.peek().is_some() {
-            let mut work = 0;
-            let mut batch = Vec::new();
-            while let Some(next) = todo.next_if(|d| batch.is_empty() || work + d.work + LAUNCH <= self.budget) {
-                work += next.work + LAUNCH;
-                batch.push(next);
+        let mut batch = Batch::default();
+        for _ in 0..times {
+            // The work since the last look at a flag.
+            let (mut at, mut unseen, mut cuts) = (0, 0, program.cuts.iter().peekable());
+            while let Some(next) = program.dispatches.get(at) {
+                while cuts.next_if(|cut| cut.at < at).is_some() {}
+                if let Some(cut) = cuts.next_if(|cut| cut.at == at)
+                    && unseen > self.budget / LOOKS
+                {
+                    self.flush(program, &mut batch)?;
+                    unseen = 0;
+                    if self.is_set(cut)? {
+                        at = cut.end;
+                        continue;
+                    }
+                }
+                let work = next.work + LAUNCH;
+                if !batch.dispatches.is_empty() && batch.work + work > self.budget {
+                    self.flush(program, &mut batch)?;
+                }
+                batch.dispatches.push(next);
+                batch.work += work;
+                unseen += work;
+                at += 1;
             }
-            self.submit(program, &batch, work)?;
         }
-        Ok(())
+        self.flush(program, &mut batch)
+    }
+    /// Submits what has been gathered.
+    fn flush(&mut self, program: &Program, batch: &mut Batch<'_>) -> Result<(), Error> {
+        if batch.dispatches.is_empty() {
+            return Ok(());
+        }
+        let Batch { dispatches, work } = std::mem::take(batch);
+        self.submit(program, &dispatches, work)
+    }
+    /// Whether a loop has ended: reads its flag, after all that was submitted.
+    #[cfg(not(target_arch = "wasm32"))]
+    fn is_set(&mut self, cut: &Cut) -> Result<bool, Error> {
+        self.wait()?;
+        let device = self.device.clone();
+        let mut request = request(&device, self, &cut.flag, cut.byte, 4)?;
+        let bytes = request.look(Some(self.patience)).ok_or_else(|| self.timeout("the flag of a loop"))??;
+        self.last_done = Instant::now();
+        Ok(bytes.iter().any(|byte| *byte != 0))
+    }
+    /// A browser is not waited for: iterations that are not needed dispatch nothing.
+    #[cfg(target_arch = "wasm32")]
+    #[expect(clippy::unused_self, clippy::unnecessary_wraps, reason = "other devices are read")]
+    fn is_set(&mut self, _: &Cut) -> Result<bool, Error> {
+        Ok(false)
     }
 
     fn submit(&mut self, program: &Program, batch: &[&Dispatch], work: u64) -> Result<(), Error> {

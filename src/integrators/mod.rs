@@ -1,11 +1,13 @@
 //! Integrators. Each is written in verbs (kick, drift, evaluate) and reads like its formula in a textbook.
 
 mod adaptive;
+mod block_leapfrog;
 mod precision;
 mod step;
 mod verbs;
 
 pub use adaptive::Adaptive;
+pub use block_leapfrog::BlockLeapfrog;
 pub use precision::Precise;
 pub(crate) use precision::check as check_precision;
 pub(crate) use step::kept_rates;
@@ -16,7 +18,7 @@ pub use verbs::solve::STATE as SOLVE_STATE;
 #[doc(hidden)]
 pub use verbs::solve::report::{NAME as SOLVE_REPORT, WORDS as SOLVE_REPORT_WORDS};
 
-use crate::kernel::{AdaptiveStep, Column, Precision};
+use crate::kernel::{AdaptiveStep, BlockSteps, Column, Precision};
 use crate::settings::{Key, Settings};
 
 /// A method that advances particles by one step.
@@ -59,6 +61,10 @@ pub trait Integrator: Copied + Send + Sync {
     /// The limits of its time step, where steps are adaptive.
     fn adaptive_step(&self) -> Option<AdaptiveStep> {
         self.wrapped().and_then(Integrator::adaptive_step)
+    }
+    /// Its block time steps, where particles have steps of their own.
+    fn block_steps(&self) -> Option<BlockSteps> {
+        self.wrapped().and_then(Integrator::block_steps)
     }
     /// The same method with a fixed step.
     fn in_fixed_steps(&self) -> Box<dyn Integrator> {

@@ -1,5 +1,6 @@
 //! A step as it is being written: each verb adds kernels to a plan.
 
+mod block;
 mod length;
 mod pairs;
 mod plans;
@@ -32,6 +33,8 @@ pub struct Step<'a> {
     kicked: Option<f64>,
     /// Whether kernels are never merged.
     apart: bool,
+    /// Whether kernels are written for the parts of a step with block time steps.
+    in_parts: bool,
     /// Whether slopes are needed, for the stages of a Runge–Kutta step.
     staged: bool,
     error: Option<Error>,
@@ -51,6 +54,7 @@ impl<'a> Step<'a> {
             time: 0.0,
             kicked: None,
             apart: false,
+            in_parts: false,
             staged: false,
             error: None,
         }
@@ -88,6 +92,7 @@ impl<'a> Step<'a> {
         self.flush();
         self.evaluated = true;
         self.moved = false;
+        self.due();
         self.neighbors(&chosen);
         let mut laws = Plan::default();
         let all = || self.forces.iter().enumerate().filter(|(place, _)| chosen(*place));

@@ -272,7 +272,8 @@ impl Component for Gravity {
             expansion: Arc::clone(expansion),
             density: expansion.cosmology.mean_density(self.0.number("g")),
         });
-        Properties { ignores_massless: true, largest, dissipates, expands, ..Properties::default() }
+        let softening = Some(self.0.number("softening")).filter(|softening| *softening > 0.0);
+        Properties { ignores_massless: true, largest, dissipates, expands, softening, ..Properties::default() }
     }
     fn stage(&self, stage: Stage, plan: &mut Plan, problem: &Problem) -> Result<(), Error> {
         let Stage::Evaluate { earlier } = stage else { return Ok(()) };

@@ -2,6 +2,7 @@
 
 mod adaptive_step;
 mod backend;
+mod block_steps;
 mod bounds;
 mod column;
 mod columns;
@@ -33,6 +34,7 @@ pub use adaptive_step::{
     time,
 };
 pub use backend::{Arrival, Backend, Machine, Mobile};
+pub use block_steps::{BLOCK_CLOCK, BLOCK_CLOCK_START, BLOCK_CLOCK_WORDS, BlockSteps, DUE, MOST_LEVELS, STEP_LEVEL};
 pub use bounds::{Bounds, Side};
 pub use column::{Advance, Column, Kind, Place, Role, Shape};
 pub use columns::{Columns, base};

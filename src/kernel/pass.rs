@@ -29,6 +29,9 @@ pub struct Indirect {
     pub field: Name,
     /// The first of the three words.
     pub word: u32,
+    /// Whether the words are zero whenever the kernel is complete, so that the dispatch may be part of a loop: iterations that are not needed
+    /// dispatch nothing then.
+    pub rests: bool,
 }
 
 /// One dispatch.

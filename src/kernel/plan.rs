@@ -258,7 +258,7 @@ impl Plan {
                 let entry = fields.entry(field.to_owned()).or_insert(0);
                 *entry = bytes.max(*entry);
             }
-            for Indirect { field, word } in kernel.passes.iter().filter_map(|pass| pass.indirect.as_ref()) {
+            for Indirect { field, word, .. } in kernel.passes.iter().filter_map(|pass| pass.indirect.as_ref()) {
                 let entry = fields.entry(field.to_string()).or_insert(0);
                 *entry = (4 * kernel.size(field).unwrap_or(u64::from(*word) + 3)).max(*entry);
             }

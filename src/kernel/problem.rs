@@ -4,7 +4,9 @@ use std::sync::Arc;
 
 use glam::DVec3;
 
-use super::{AdaptiveStep, Bounds, Columns, ListShape, Machine, Name, Precision, Shader, Side, Solver, Source, Table};
+use super::{
+    AdaptiveStep, BlockSteps, Bounds, Columns, ListShape, Machine, Name, Precision, Shader, Side, Solver, Source, Table,
+};
 use crate::floor_plan::FloorPlan;
 use crate::life::{Birth, Drain};
 use crate::links::{Links, Network};
@@ -56,6 +58,8 @@ pub struct Problem {
     pub solver: Solver,
     /// The adaptive time step; `None`: all steps have the same length.
     pub adaptive_step: Option<AdaptiveStep>,
+    /// The block time steps; `None`: all particles have the same steps.
+    pub block_steps: Option<BlockSteps>,
     /// The precision of positions and velocities.
     pub precision: Precision,
     /// The columns of the simulation.
@@ -123,6 +127,7 @@ impl Problem {
             reached: 1.0,
             solver: Solver::default(),
             adaptive_step: None,
+            block_steps: None,
             precision: Precision::Single,
             columns: Arc::default(),
             list: None,
@@ -139,6 +144,11 @@ impl Problem {
     #[must_use]
     pub fn precise(self, precision: Precision) -> Self {
         Self { precision, ..self }
+    }
+    /// The same with these block time steps.
+    #[must_use]
+    pub fn in_blocks(self, block_steps: Option<BlockSteps>) -> Self {
+        Self { block_steps, ..self }
     }
     /// The same with this neighbour list.
     #[must_use]

@@ -78,7 +78,7 @@ use crate::kernel::{Backend, Bounds, Columns, POSITION, Side};
 use crate::measure::Times;
 use crate::render::{Picture, Trail};
 use crate::scene::Scene;
-use crate::simulation::{Setup, Simulation};
+use crate::simulation::{Levels, Setup, Simulation};
 use crate::state::State;
 use packed::Packed;
 use schedule::Schedule;
@@ -169,6 +169,8 @@ pub struct Run {
     pub course: Option<Course>,
     /// The number of springs at the start, and the present one, where they may break.
     pub springs: (usize, Option<usize>),
+    /// The block time steps of the run, where particles have steps of their own.
+    pub levels: Option<Levels>,
     /// The last state that was read, which is the last one known to be valid.
     pub last: Option<Arc<State>>,
 }
@@ -235,6 +237,7 @@ impl Run {
             stream,
             course: None,
             springs: (setup.state.links.springs.len(), None),
+            levels: None,
             last: None,
             scene,
             options,
@@ -290,6 +293,7 @@ impl Run {
         }
         self.schedule = Schedule::new(self.scene.checkpoint.every, simulation.steps(), course.time());
         let stepping = self.advance(simulation, &mut course, &folder, progress).await?;
+        self.levels = simulation.levels().await?;
         let stopped = course.done() < self.scene.steps;
         if stopped {
             // Before the files that only a stopped run writes.

@@ -54,7 +54,7 @@ use std::path::{Path, PathBuf};
 
 use crate::forces::Component;
 use crate::integrators;
-use crate::kernel::{AdaptiveStep, Bounds, Precision, Solver};
+use crate::kernel::{AdaptiveStep, BlockSteps, Bounds, Precision, Solver};
 use crate::render;
 use crate::settings::Settings;
 use crate::simulation::Setup;
@@ -106,6 +106,8 @@ pub struct Scene {
     pub until: f64,
     /// The adaptive time step, if steps are adaptive.
     pub adaptive_step: Option<AdaptiveStep>,
+    /// The block time steps, if particles have steps of their own.
+    pub block_steps: Option<BlockSteps>,
     /// The precision of positions and velocities.
     pub precision: Precision,
     /// The integrator.
@@ -193,9 +195,12 @@ impl Scene {
         Setup {
             state: std::mem::take(&mut self.particles),
             forces: std::mem::take(&mut self.forces),
-            integrator: match self.adaptive_step {
-                Some(adaptive_step) => Box::new(integrators::Adaptive { integrator: self.integrator(), adaptive_step }),
-                None => self.integrator(),
+            integrator: match (self.adaptive_step, self.block_steps) {
+                (Some(adaptive_step), _) => {
+                    Box::new(integrators::Adaptive { integrator: self.integrator(), adaptive_step })
+                }
+                (None, Some(steps)) => Box::new(integrators::BlockLeapfrog(steps)),
+                (None, None) => self.integrator(),
             },
             dt: self.dt,
             bounds: self.bounds,
@@ -393,6 +398,7 @@ fn read(sections: &[(&'static str, Table<'_>)], files: &Files, options: &Options
         until: simulation.until,
         precision: simulation.precision,
         adaptive_step: simulation.adaptive_step.map(|(adaptive_step, _)| adaptive_step),
+        block_steps: simulation.block_steps,
         integrator: simulation.integrator,
         integrator_settings: simulation.integrator_settings,
         solver,

@@ -2,7 +2,7 @@
 
 use crate::integrators::{self, INTEGRATORS, Integrator};
 use crate::interactions::gravity;
-use crate::kernel::{AdaptiveStep, Precision};
+use crate::kernel::{AdaptiveStep, BlockSteps, Precision};
 use crate::settings::{Key, Kind, Settings, Value};
 
 use super::report::{Fault, Place, Report};
@@ -42,12 +42,33 @@ pub(super) const KEYS: &[Key] = &[
         "the Courant number of adaptive steps, a factor of every limit",
     ),
     Key::new(
+        "block_levels",
+        Kind::Whole,
+        Value::Number(0.0),
+        "above 0: block time steps: each particle has a step dt / 2ˡ of its own, with a level l up to this; 10 at most",
+    ),
+    Key::new(
+        "block_eta",
+        Kind::Positive,
+        Value::Number(0.025),
+        "the accuracy η of block time steps, which are at most √(2 η ε / |a|)",
+    ),
+    Key::new(
+        "block_length",
+        Kind::NotNegative,
+        Value::Number(0.0),
+        "the length ε of that; 0 for the softening of gravity [length]",
+    ),
+    Key::new("block_shared", Kind::Flag, Value::Flag(false), "whether all particles take the shortest of these steps"),
+    Key::new(
         "precision",
         Kind::Choice(&Precision::NAMES),
         Value::Text(std::borrow::Cow::Borrowed("single")),
         "how positions and velocities are kept: one number of single precision, or the sum of two (\"compensated\"), from which differences of positions are formed too (\"double_single\")",
     ),
 ];
+/// The keys of block time steps only.
+const BLOCK: [&str; 3] = ["block_eta", "block_length", "block_shared"];
 /// The keys of adaptive steps only.
 const ADAPTIVE: [&str; 3] = ["dt_min", "dt_before", "cfl"];
 pub(super) const OWN: &[&str] = &["steps", "until", "until_redshift", "integrator"];
@@ -59,6 +80,8 @@ pub(super) struct Simulation {
     pub(super) integrator_settings: Settings,
     /// The adaptive time step, if steps are adaptive, and its place in the scene.
     pub(super) adaptive_step: Option<(AdaptiveStep, Place)>,
+    /// The block time steps, if particles have steps of their own.
+    pub(super) block_steps: Option<BlockSteps>,
     /// The precision of positions and velocities.
     pub(super) precision: Precision,
     /// The end time.
@@ -82,6 +105,7 @@ pub(super) fn read<'a>(
         integrator,
         integrator_settings,
         adaptive_step: None,
+        block_steps: None,
         precision: Precision::Single,
         until: 1.0,
         given_dt: None,
@@ -145,6 +169,7 @@ pub(super) fn read<'a>(
         }
     }
     simulation.adaptive_step = adaptive_step(table, &settings, &simulation, report);
+    simulation.block_steps = block_steps(table, &settings, &simulation, report);
     if simulation.adaptive_step.is_some() {
         let lost = simulation.integrator.by_default().is_symplectic();
         simulation.remark = lost.then(|| {
@@ -220,6 +245,38 @@ fn adaptive_step(
     Some((adaptive_step, entry.place.clone()))
 }
 
+/// The block time steps, if particles have steps of their own.
+fn block_steps(table: &Table<'_>, settings: &Settings, of: &Simulation, report: &mut Report) -> Option<BlockSteps> {
+    let levels = settings.whole("block_levels");
+    let entry = table.get("block_levels").filter(|_| levels > 0);
+    let Some(entry) = entry else {
+        for entry in BLOCK.iter().filter_map(|key| table.get(key)) {
+            let fault =
+                Fault::at(&entry.place, format!("`{}` is for block time steps, and all have one length", entry.key));
+            report.push(fault.label("remove it, or set block_levels above 0"));
+        }
+        return None;
+    };
+    let steps = BlockSteps {
+        levels: u32::try_from(levels).unwrap_or(u32::MAX),
+        eta: settings.number("block_eta"),
+        length: settings.number("block_length"),
+        shared: settings.flag("block_shared"),
+    };
+    if let Err(error) = steps.check(of.dt) {
+        report.push(Fault::at(&entry.place, "block time steps are out of range").label(error.to_string()));
+    }
+    let fault = Fault::at(&entry.place, "block time steps are those of leapfrog");
+    if of.integrator.name != "leapfrog" {
+        report.push(fault.label(format!("choose integrator = \"leapfrog\", and not {}", of.integrator.name)));
+    } else if of.precision != Precision::Single {
+        report.push(fault.label("with precision = \"single\": leave either out"));
+    } else if of.adaptive_step.is_some() {
+        report.push(fault.label("with a fixed longest step dt: leave out adaptive, or this"));
+    }
+    Some(steps)
+}
+
 /// The number of steps to `until`: the quotient up to rounding errors, and the next integer if it is none.
 fn steps(until: f64, dt: f64) -> Option<u64> {
     let quotient = until / dt;
@@ -261,6 +318,12 @@ impl Simulation {
                 out.number("cfl", adaptive_step.courant);
             }
             None => out.line("steps", &self.steps.to_string()),
+        }
+        if let Some(steps) = self.block_steps {
+            out.line("block_levels", &steps.levels.to_string());
+            out.number("block_eta", steps.eta);
+            out.number("block_length", steps.length);
+            out.line("block_shared", if steps.shared { "true" } else { "false" });
         }
         out.text("precision", self.precision.name());
         out.text("integrator", self.integrator.name);

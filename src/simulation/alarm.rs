@@ -49,6 +49,7 @@ impl<B: Backend> Simulation<B> {
             return Err(Error::Runaway { particle, step: u64::from(fast.saturating_sub(1)) });
         }
         self.sound(&alarm)?;
+        self.on_block_clock().await?;
         self.on_step_clock().await
     }
     pub(super) async fn alarm(&mut self) -> Result<[u32; ALARM_WORDS], Error> {

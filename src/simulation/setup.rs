@@ -202,6 +202,7 @@ impl Setup {
             .stretched(self.elastic())
             .solved(self.solver)
             .adapted(self.integrator.adaptive_step())
+            .in_blocks(self.block_steps())
             .precise(self.integrator.precision())
             .of_columns(self.columns()?);
         lists::counted(self, problem)
@@ -425,6 +426,7 @@ impl Setup {
             adaptive_step.check(self.dt)?;
             self.bear()?;
         }
+        self.serves_blocks()?;
         boundary::check(&self.bounds)?;
         self.on_the_floor()?;
         motion::check(held, motions, count, self.bounds.dimensions, self.dt)?;

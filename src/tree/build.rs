@@ -71,6 +71,12 @@ impl Tree {
             pass.work = 3 * u64::from(count);
             kernels.push(self.kernel("demand", pass, reference::demand));
         }
+        if problem.block_steps.is_some() {
+            let mut pass = self.each(&[crate::shader!("tree/due.wgsl")], self.groups())?;
+            let relative = u8::from(self.opening.is_relative());
+            pass.constants.extend([("GROUP", f64::from(GROUP)), ("RELATIVE", f64::from(relative))]);
+            kernels.push(self.kernel("due groups", pass, reference::due));
+        }
         Ok(kernels)
     }
 

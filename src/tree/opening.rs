@@ -25,6 +25,11 @@ pub enum Opening {
 }
 
 impl Opening {
+    /// Whether it compares forces.
+    #[must_use]
+    pub fn is_relative(self) -> bool {
+        matches!(self, Self::Relative { .. })
+    }
     /// Its θ.
     #[must_use]
     pub fn theta(self) -> f64 {

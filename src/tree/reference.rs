@@ -8,7 +8,7 @@ use super::{
     curve,
 };
 use crate::error::Error;
-use crate::kernel::{ACCELERATION, Host, POSITION, POSITION_LOW};
+use crate::kernel::{ACCELERATION, DUE, Host, POSITION, POSITION_LOW};
 
 /// The corner of the cube, and cells per length; 0 where that overflows single precision.
 pub(super) fn cube(_: &Tree, host: &Host) -> Result<(), Error> {
@@ -121,6 +121,20 @@ pub(super) fn demand(tree: &Tree, host: &Host) -> Result<(), Error> {
         let last = group.iter().filter_map(|id| acceleration.get(*id as usize)).map(|a| a.truncate().length());
         let least = last.fold(f64::INFINITY, f64::min);
         *demand = if least > 0.0 { g / (alpha * least.max(pulls(body.truncate()))) } else { 0.0 };
+    }
+    Ok(())
+}
+
+/// Groups without particles that are due have negative demands.
+pub(super) fn due(tree: &Tree, host: &Host) -> Result<(), Error> {
+    let (ids, due) = (host.reading::<u32>(&tree.field(TREE_ID).1)?, host.read(DUE)?);
+    let mut demand = host.writing::<f32>(&tree.field(TREE_DEMAND).1)?;
+    for (demand, group) in demand.iter_mut().zip(ids[..tree.used as usize].chunks(GROUP as usize)) {
+        if !group.iter().any(|id| due.get(*id as usize).is_some_and(|due| *due != 0)) {
+            *demand = -1.0;
+        } else if !tree.opening.is_relative() {
+            *demand = 0.0;
+        }
     }
     Ok(())
 }

@@ -1,6 +1,7 @@
 //! Visits: which pairs are evaluated. A law defines the interaction; a visit defines the pairs, and joins the law's WGSL with its own.
 
 mod alone;
+mod due;
 mod each;
 mod files;
 mod jacobian;
@@ -27,6 +28,7 @@ mod walk;
 
 #[cfg(test)]
 pub(crate) use alone::looks_at_own;
+pub use due::rows as due_rows;
 pub use jacobian::{Jacobian, ROW, ROWS};
 pub use law::{Distant, Law, numbered};
 pub use links::{LINK, LINK_START, bind};

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::Law;
+use super::{Law, due};
 use crate::error::Error;
 use crate::kernel::{Kernel, Machine, Pass, Problem, Scalar, Shader, Source, Threads};
 use crate::neighbors::checked;
@@ -60,6 +60,11 @@ fn join(visit: Source, law: &Law, problem: &Problem) -> Result<Arc<Shader>, Erro
         problem.precision.particle(),
         crate::shader!("visit/span.wgsl"),
         if law.over.range().is_some() { crate::shader!("visit/within.wgsl") } else { crate::shader!("visit/all.wgsl") },
+        if law.of_due(problem) {
+            crate::shader!("visit/targets_due.wgsl")
+        } else {
+            crate::shader!("visit/targets_all.wgsl")
+        },
         visit,
     ];
     files.push(law.result());
@@ -119,14 +124,9 @@ pub fn kernel(law: Law, problem: &Problem) -> Result<Kernel, Error> {
     let parts = if whole { 1 } else { u64::from(cut.layers) * u64::from(count) };
     let mut sizes = law.alarm();
     sizes.push(("parts".into(), parts));
-    Ok(Kernel {
-        name: law.name,
-        passes,
-        reference: law.reference,
-        sizes,
-        scratch: vec!["parts".into()],
-        tables: Vec::new(),
-    })
+    sizes.push((due::ROWS.into(), u64::from(count) + 1));
+    let reference = if law.of_due(problem) { law.reference.map(due::of_due) } else { law.reference };
+    Ok(Kernel { name: law.name, passes, reference, sizes, scratch: vec!["parts".into()], tables: Vec::new() })
 }
 
 #[cfg(test)]

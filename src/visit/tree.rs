@@ -63,8 +63,16 @@ fn join(
             Opening::Geometric { .. } => crate::shader!("visit/tree_geometric.wgsl"),
             Opening::Relative { .. } => crate::shader!("visit/tree_relative.wgsl"),
         },
+        if law.of_due(problem) {
+            crate::shader!("visit/tree_due.wgsl")
+        } else {
+            crate::shader!("visit/tree_every.wgsl")
+        },
         law.distant.wgsl.clone().unwrap_or(crate::shader!("visit/tree_monopole.wgsl")),
     ];
+    if law.of_due(problem) && !tree.opening.is_relative() {
+        files.push(crate::shader!("visit/tree_demand.wgsl"));
+    }
     files.extend(variant);
     files.push(law.result());
     files.extend(law.choice());
@@ -116,11 +124,20 @@ fn rounds(tree: &Tree, machine: &Machine) -> u32 {
 }
 
 /// Refuses columns for which the relative criterion leaves no binding; references bind nothing.
-fn binds_few(law: &Law, tree: &Tree, machine: &Machine, shader: &Shader) -> Result<(), Error> {
+fn binds_few(law: &Law, tree: &Tree, problem: &Problem, shader: &Shader) -> Result<(), Error> {
+    let machine = &problem.machine;
     let storage = shader.reflection().bindings.iter().filter(|binding| binding.access != Access::Uniform).count();
-    let is_relative = matches!(tree.opening, Opening::Relative { .. });
-    if storage <= STORAGE || !is_relative || *machine == Machine::HOST {
+    let is_relative = tree.opening.is_relative();
+    let has_demands = is_relative || law.of_due(problem);
+    if storage <= STORAGE || !has_demands || *machine == Machine::HOST {
         return Ok(());
+    }
+    if !is_relative {
+        return Err(Error::Scene(format!(
+            "`{}` over a tree binds {storage} storage buffers in block time steps, and devices have {STORAGE}: leave block_levels out, or take \
+             over = \"pairs\"",
+            law.name
+        )));
     }
     let of = if machine.software { "a software adapter" } else { "a device" };
     Err(Error::Scene(format!(
@@ -158,7 +175,7 @@ pub fn kernel(law: Law, tree: &Tree, problem: &Problem) -> Result<Kernel, Error>
     }
     let machine = &law.leaves(&problem.machine);
     let shader = join(&law, tree, problem, variant(machine), law.alarm_file())?;
-    binds_few(&law, tree, machine, &shader)?;
+    binds_few(&law, tree, problem, &shader)?;
     let params = law.uniforms(&shader)?;
     let mut constants = problem.constants(&shader);
     constants.extend([("GROUP", f64::from(GROUP)), ("LEAF", f64::from(LEAF))]);
@@ -205,7 +222,11 @@ pub fn kernel(law: Law, tree: &Tree, problem: &Problem) -> Result<Kernel, Error>
         if let Some(rest) = &rest {
             // Few walks continue, if any: the work of all of them would be an overestimate.
             let again = walk(1)?;
-            let again = Pass { indirect: Some(Indirect { field: GO.into(), word: 0 }), work: again.work / 4, ..again };
+            let again = Pass {
+                indirect: Some(Indirect { field: GO.into(), word: 0, rests: true }),
+                work: again.work / 4,
+                ..again
+            };
             let (seen, last) = (look(&walk(0)?, rest), look(&again, rest));
             passes.push(seen);
             passes.extend(std::iter::repeat_n(again, rounds as usize));

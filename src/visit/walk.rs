@@ -99,6 +99,7 @@ pub fn reference(
         let sums: Vec<(usize, DVec4)> = slots
             .par_chunks(GROUP as usize)
             .enumerate()
+            .filter(|(group, _)| nodes.demand(*group) >= 0.0)
             .flat_map_iter(|(group, slots)| {
                 let targets: Vec<DVec4> = slots.iter().map(|slot| nodes.bodies()[*slot]).collect();
                 let place = Place::new(&targets, nodes.demand(group));

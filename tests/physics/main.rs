@@ -7,6 +7,7 @@ mod adaptive;
 mod at_scale;
 mod births;
 mod bits;
+mod blocks;
 mod bodies;
 mod boundary;
 mod crowds;

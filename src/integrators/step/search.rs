@@ -2,10 +2,15 @@
 
 use super::Step;
 use crate::error::Error;
-use crate::forces::{Law, Over};
+use crate::forces::{Law, Over, Problem};
 use crate::neighbors::{Grid, List};
 use crate::tree::Tree;
 use crate::visit;
+
+/// Whether a law needs the rows of particles that are due.
+fn lists_due(law: &Law, problem: &Problem) -> bool {
+    law.of_due(problem) && law.tree(problem).is_none()
+}
 
 impl Step<'_> {
     /// Updates the neighbour list, where laws of chosen forces use it.
@@ -56,6 +61,14 @@ impl Step<'_> {
         }
         for (grid, moving) in grids {
             self.add(grid.kernel(&self.problem, moving));
+        }
+        if self
+            .forces
+            .iter()
+            .enumerate()
+            .any(|(place, force)| chosen(place) && force.laws().iter().any(|law| lists_due(law, &self.problem)))
+        {
+            self.add(visit::due_rows(&self.problem));
         }
         for tree in trees {
             self.add_all(tree.kernels(&self.problem));

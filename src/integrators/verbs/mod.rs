@@ -3,6 +3,7 @@
 
 pub mod adaptive;
 pub mod at;
+pub mod block;
 pub mod clear;
 pub mod compensated;
 pub mod drift;

@@ -58,7 +58,7 @@ pub fn kernel(list: List, problem: &Problem) -> Result<Kernel, Error> {
     let mut all = Vec::new();
     for (pass, word) in builds.iter_mut().zip((0..).step_by(EACH as usize)) {
         all.extend(pass.workgroups(problem.machine.workgroups)?);
-        pass.indirect = Some(Indirect { field: GO.into(), word });
+        pass.indirect = Some(Indirect { field: GO.into(), word, rests: false });
         pass.work /= SELDOM;
     }
     let words = u64::try_from(all.len()).unwrap_or(u64::MAX);

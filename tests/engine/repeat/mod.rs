@@ -107,7 +107,7 @@ fn loops_that_cannot_end_are_refused() {
 #[test]
 fn indirect_dispatches_stand_outside_of_loops() {
     let mut work = toy::work();
-    work.passes[0].indirect = Some(Indirect { field: "workgroups of work".into(), word: 0 });
+    work.passes[0].indirect = Some(Indirect { field: "workgroups of work".into(), word: 0, rests: false });
     let mut plan = Plan::default();
     plan.repeat(3, "state", 0, "inner_done", Plan::of([work, toy::count()])).expect("a loop");
     let shared = crate::support::device();
