@@ -3,12 +3,12 @@
 @group(0) @binding(0) var<uniform> world: World;
 @group(1) @binding(0) var<storage, read> acceleration: array<vec4f>; // xyz, potential
 @group(1) @binding(1) var<storage, read> due: array<u32>;
-@group(1) @binding(2) var<storage, read> block_clock: BlockClock;
+@group(1) @binding(2) var<storage, read> block_clock: array<BlockClock>;
 @group(1) @binding(3) var<storage, read_write> step_level: array<u32>;
 // The acceleration at the end of a particle's last step.
 @group(1) @binding(4) var<storage, read_write> block_acceleration: array<vec4f>;
 // The largest level, the lowest id of those that require more than there are, the most that one requires, and the number of those due.
-@group(1) @binding(5) var<storage, read_write> block_wanted: array<atomic<u32>, 4>;
+@group(1) @binding(5) var<storage, read_write> block_wanted: array<atomic<u32>>;
 
 override LEVELS: u32;
 // dt² / (2 η ε), or without ε where particles have their own.
@@ -44,7 +44,7 @@ fn block_level(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) gro
             atomicMax(&block_wanted[2], level);
             level = LEVELS;
         }
-        while (block_clock.now & ((1u << (LEVELS - level)) - 1u)) != 0u { level += 1u; }
+        while (block_clock[0].now & ((1u << (LEVELS - level)) - 1u)) != 0u { level += 1u; }
         step_level[i] = level;
     }
     atomicMax(&block_wanted[0], level);

@@ -13,6 +13,9 @@ pub struct BlockSteps {
     pub eta: f64,
     /// ε of the criterion \[length\]; 0: the softening of the forces.
     pub length: f64,
+    /// Particles that are heavier take the shortest step of any \[mass\]; 0: than a hundred times the mean. A heavy body among light ones has a
+    /// small acceleration, and it is the sum of many forces that change quickly.
+    pub mass: f64,
     /// Whether all particles take the shortest step of any.
     pub shared: bool,
 }
@@ -39,7 +42,7 @@ impl BlockSteps {
     /// # Errors
     /// [`Error::Scene`] with the invalid number.
     pub fn check(&self, dt: f64) -> Result<(), Error> {
-        let Self { levels, eta, length, .. } = *self;
+        let Self { levels, eta, length, mass, .. } = *self;
         if !(1..=MOST_LEVELS).contains(&levels) {
             return Err(Error::Scene(format!(
                 "block steps have {levels} levels: choose 1 to {MOST_LEVELS}, for a shortest step of dt / 2 to dt / {}",
@@ -51,6 +54,9 @@ impl BlockSteps {
         }
         if !(length >= 0.0 && length.is_finite()) {
             return Err(Error::Scene(format!("the length of block steps is {length}: choose one above 0")));
+        }
+        if !(mass >= 0.0 && mass.is_finite()) {
+            return Err(Error::Scene(format!("the mass of block steps is {mass}: choose one above 0")));
         }
         let demand = self.demand(dt, length);
         let single = f64::from(f32::MIN_POSITIVE)..=f64::from(f32::MAX);

@@ -59,6 +59,12 @@ pub(super) const KEYS: &[Key] = &[
         Value::Number(0.0),
         "the length ε of that; 0 for the softening of gravity [length]",
     ),
+    Key::new(
+        "block_mass",
+        Kind::NotNegative,
+        Value::Number(0.0),
+        "particles that are heavier take the shortest of these steps; 0 for a hundred times the mean [mass]",
+    ),
     Key::new("block_shared", Kind::Flag, Value::Flag(false), "whether all particles take the shortest of these steps"),
     Key::new(
         "precision",
@@ -68,7 +74,7 @@ pub(super) const KEYS: &[Key] = &[
     ),
 ];
 /// The keys of block time steps only.
-const BLOCK: [&str; 3] = ["block_eta", "block_length", "block_shared"];
+const BLOCK: [&str; 4] = ["block_eta", "block_length", "block_mass", "block_shared"];
 /// The keys of adaptive steps only.
 const ADAPTIVE: [&str; 3] = ["dt_min", "dt_before", "cfl"];
 pub(super) const OWN: &[&str] = &["steps", "until", "until_redshift", "integrator"];
@@ -261,6 +267,7 @@ fn block_steps(table: &Table<'_>, settings: &Settings, of: &Simulation, report: 
         levels: u32::try_from(levels).unwrap_or(u32::MAX),
         eta: settings.number("block_eta"),
         length: settings.number("block_length"),
+        mass: settings.number("block_mass"),
         shared: settings.flag("block_shared"),
     };
     if let Err(error) = steps.check(of.dt) {
@@ -323,6 +330,7 @@ impl Simulation {
             out.line("block_levels", &steps.levels.to_string());
             out.number("block_eta", steps.eta);
             out.number("block_length", steps.length);
+            out.number("block_mass", steps.mass);
             out.line("block_shared", if steps.shared { "true" } else { "false" });
         }
         out.text("precision", self.precision.name());

@@ -8,6 +8,9 @@ use crate::motion::Hold;
 /// The column of softenings of particles.
 const OWN_LENGTH: &str = "softening_length";
 
+/// Particles of so many times the mean mass take the shortest step: at most one in so many does.
+const HEAVY: f64 = 100.0;
+
 /// The steps that particles have had.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Levels {
@@ -39,6 +42,8 @@ impl Setup {
     /// The block time steps, with the length of their criterion; 0 where particles have their own.
     pub(super) fn block_steps(&self) -> Option<BlockSteps> {
         let steps = self.integrator.block_steps()?;
+        let mean = self.state.mass().iter().sum::<f64>() / self.state.mass().len().max(1) as f64;
+        let steps = if steps.mass == 0.0 { BlockSteps { mass: HEAVY * mean, ..steps } } else { steps };
         let own = self.forces.iter().flat_map(|force| force.columns()).any(|column| column.name == OWN_LENGTH);
         if steps.length > 0.0 || own {
             return Some(steps);
@@ -49,7 +54,8 @@ impl Setup {
     }
     /// Refuses what block time steps are not compatible with.
     pub(super) fn serves_blocks(&self) -> Result<(), Error> {
-        let Some(steps) = self.block_steps() else { return Ok(()) };
+        let (Some(given), Some(steps)) = (self.integrator.block_steps(), self.block_steps()) else { return Ok(()) };
+        given.check(self.dt)?;
         steps.check(self.dt)?;
         let own = self.forces.iter().flat_map(|force| force.columns()).any(|column| column.name == OWN_LENGTH);
         if steps.length == 0.0 && !own {

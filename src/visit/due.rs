@@ -8,6 +8,7 @@ use crate::primitives::scan;
 
 /// The number of particles that are due, and their rows.
 pub(super) const ROWS: &str = "due_rows";
+const DUE_ROWS: Field<u32> = Field::new(ROWS);
 /// The number of particles before each that are due.
 const BEFORE: &str = "due_before";
 
@@ -16,7 +17,6 @@ const BEFORE: &str = "due_before";
 /// # Errors
 /// When a shader does not compile, or there are more particles than a scan takes.
 pub fn rows(problem: &Problem) -> Result<Kernel, Error> {
-    const DUE_ROWS: Field<u32> = Field::new(ROWS);
     let (elements, before) = (problem.capacity.saturating_add(1), crate::kernel::Name::from(BEFORE));
     let each = |file| Ok::<_, Error>(Pass::new(Shader::join(&[crate::shader!("world.wgsl"), file])?, elements));
     let sums = scan::scratch(&before);
@@ -49,9 +49,10 @@ pub(super) fn of_due(reference: Reference) -> Reference {
     Arc::new(move |host| {
         let before = host.read(ACCELERATION)?.to_vec();
         reference(host)?;
-        let (due, mut acceleration) = (host.read(DUE)?, host.write(ACCELERATION)?);
-        for ((a, before), due) in acceleration.iter_mut().zip(before).zip(due.iter()) {
-            if *due == 0 {
+        let (rows, mut acceleration) = (host.read(DUE_ROWS)?, host.write(ACCELERATION)?);
+        let mut due = rows.iter().skip(1).take(rows[0] as usize).peekable();
+        for (row, (a, before)) in (0..).zip(acceleration.iter_mut().zip(before)) {
+            if due.next_if(|next| **next == row).is_none() {
                 *a = before;
             }
         }

@@ -23,7 +23,7 @@ const STRAIGHT: &str =
     "of so small angles both are the same number, and where a joint should be bent the direction is rounding";
 const NOT_ASKED: &str = "it is not asked for any more";
 const ALL_KNOW: &str = "all lanes hold the same value, so any of them may write it";
-const APART: &str = "let apart = start + BLOCK <= mine || start >= mine + WORKGROUP * TARGETS;";
+const APART: &str = "return start + block <= mine || start >= mine + count;";
 
 /// Of implicit solves.
 pub const SOLVES: &[Equivalent] = &[
@@ -231,7 +231,7 @@ pub const EQUIVALENT: &[Equivalent] = &[
     same("reflecting.wgsl", "velocity[i] = v * vec4f(", "*", "/", "1 and -1 are their own inverses"),
     same("particle.wgsl", "return particle_at(min(i, world.count - 1u));", "-", "+", STORES_NOTHING),
     same("particle_two_words.wgsl", "return particle_at(min(i, world.count - 1u));", "-", "+", STORES_NOTHING),
-    same("span.wgsl", "i >= world.count { return Sum(); }", ">=", ">", STORES_NOTHING),
+    same("span.wgsl", "i >= targets() { return Sum(); }", ">=", ">", STORES_NOTHING),
     same(
         "pairs_tile.wgsl",
         "position[min(start + lane, world.count - 1u)]",
@@ -246,14 +246,14 @@ pub const EQUIVALENT: &[Equivalent] = &[
         "<=",
         "one more block, of no sources",
     ),
-    same("visit/pairs_", APART, "<=", "<", SLOW_WAY),
-    same("visit/pairs_", APART, "||", "&&", SLOW_WAY),
-    same("visit/pairs_", APART, ">=", ">", SLOW_WAY),
+    same("targets_all", APART, "<=", "<", SLOW_WAY),
+    same("targets_all", APART, "||", "&&", SLOW_WAY),
+    same("targets_all", APART, ">=", ">", SLOW_WAY),
     same("visit/pairs_", "if apart && start + BLOCK <= end {", "<=", "<", SLOW_WAY),
     same("pairs_subgroup.wgsl", "let full = start + BLOCK <= end;", "<=", "<", SLOW_WAY),
     same(
         "pairs_subgroup.wgsl",
-        APART,
+        "let apart = is_apart(",
         "*",
         "/",
         "blocks and targets begin at multiples of 128: behind mine + 8 is behind mine + 128",

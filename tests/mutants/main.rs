@@ -5,6 +5,7 @@ mod adaptive_stages;
 mod alarms;
 mod barostats;
 mod births;
+mod blocks;
 mod boundary;
 mod bounded;
 mod columns;
@@ -218,6 +219,7 @@ fn every_mutant_is_noticed() {
         trees::EQUIVALENT,
         walks::EQUIVALENT,
         adaptive::EQUIVALENT,
+        blocks::EQUIVALENT,
         precision::EQUIVALENT,
         two_words::EQUIVALENT,
         fluids::EQUIVALENT,

@@ -287,6 +287,7 @@ pub fn all(shared: &Shared) -> Vec<Stage> {
     crate::pairs::all(&device, &mut stages);
     crate::adaptive::all(&device, &mut stages);
     crate::adaptive_stages::all(shared, &device, &mut stages);
+    crate::blocks::all(shared, &device, &mut stages);
     crate::births::all(shared, &device, &mut stages);
     crate::rods::rods(&device, &mut stages);
     crate::strained::all(&device, &mut stages);

@@ -6,8 +6,8 @@ use glam::{DVec4, Vec4};
 
 use crate::error::Error;
 use crate::kernel::{
-    ACCELERATION, BLOCK_CLOCK, BLOCK_CLOCK_START, BLOCK_CLOCK_WORDS, BlockSteps, DUE, Field, Host, Kernel, POSITION,
-    Problem, STEP_LEVEL, Shader, Source, VELOCITY, World,
+    ACCELERATION, BLOCK_CLOCK, BLOCK_CLOCK_START, BlockSteps, DUE, Field, Host, Kernel, POSITION, Problem, STEP_LEVEL,
+    Shader, Source, VELOCITY, World,
 };
 
 /// The accelerations at the ends of particles' last steps.
@@ -31,7 +31,7 @@ fn kernel(
     let mut all = vec![crate::shader!("world.wgsl"), crate::shader!("integrators/block_clock.wgsl")];
     all.extend(files);
     let kernel = Kernel::new(name, Shader::join(&all)?, constants, count, Arc::new(reference));
-    let clock = (BLOCK_CLOCK.name.into(), BLOCK_CLOCK_WORDS as u64);
+    let clock = (BLOCK_CLOCK.name.into(), 1);
     let tables = vec![(BLOCK_CLOCK.name.into(), Arc::new(BLOCK_CLOCK_START.to_vec()))];
     Ok(Kernel { name: name.to_owned(), sizes: vec![clock, (WANTED.name.into(), 4)], tables, ..kernel })
 }
@@ -121,13 +121,14 @@ pub fn advance(steps: BlockSteps, problem: &Problem) -> Result<Kernel, Error> {
 }
 
 /// The part of dt in half of a particle's own step, in parts of a step and the lengths of parts.
-fn own(steps: BlockSteps, clock: &[u32], level: u32) -> (u32, f64) {
-    let own = 1 << (steps.levels - if steps.shared { clock[3] } else { level });
+fn own(steps: BlockSteps, clock: &[u32], level: u32, mass: f64) -> (u32, f64) {
+    let shortest = steps.shared || mass > steps.mass;
+    let own = 1 << (steps.levels - if shortest { clock[3] } else { level });
     (own, 0.5 * f64::from(own) / f64::from(clock[1] - clock[0]))
 }
 
 fn constants(steps: BlockSteps) -> Vec<(&'static str, f64)> {
-    vec![("LEVELS", f64::from(steps.levels)), ("SHARED", f64::from(u8::from(steps.shared)))]
+    vec![("LEVELS", f64::from(steps.levels)), ("SHARED", f64::from(u8::from(steps.shared))), ("MASS", steps.mass)]
 }
 
 /// Half a kick of those that begin a step, and a drift of all.
@@ -137,7 +138,7 @@ pub fn kick_drift(steps: BlockSteps, problem: &Problem) -> Result<Kernel, Error>
         let (mut position, mut velocity) = (host.write(POSITION)?, host.write(VELOCITY)?);
         let (mut due, dt) = (host.write(DUE)?, host.world().dt);
         for i in 0..position.len() {
-            let (own, half) = own(steps, &clock, level[i]);
+            let (own, half) = own(steps, &clock, level[i], position[i].w);
             if clock[0].is_multiple_of(own) {
                 velocity[i] += (acceleration[i].truncate() * (half * dt)).extend(0.0);
             }
@@ -155,12 +156,13 @@ pub fn kick(steps: BlockSteps, problem: &Problem) -> Result<Kernel, Error> {
     let reference = move |host: &Host| {
         let (level, clock, due) = (host.read(STEP_LEVEL)?, host.read(BLOCK_CLOCK)?, host.read(DUE)?);
         let (mut velocity, mut acceleration) = (host.write(VELOCITY)?, host.write(ACCELERATION)?);
-        let (last, dt): (_, f64) = (host.read(LAST)?, host.world().dt);
+        let (last, position, dt) = (host.read(LAST)?, host.read(POSITION)?, host.world().dt);
         for i in 0..velocity.len() {
             if due[i] == 0 {
                 acceleration[i] = last[i];
             } else {
-                let half: DVec4 = (acceleration[i].truncate() * (own(steps, &clock, level[i]).1 * dt)).extend(0.0);
+                let half: DVec4 =
+                    (acceleration[i].truncate() * (own(steps, &clock, level[i], position[i].w).1 * dt)).extend(0.0);
                 velocity[i] += half;
             }
         }

@@ -16,7 +16,9 @@ fn every_kernel_agrees_with_its_reference() {
             for (count, seed) in [(1000, 1), (333, 2)] {
                 let setup =
                     setup(cusp(count, 0.03, seed), vec![gravity(1.0, 0.004, over, alpha)], 0.01, steps(5, 0.02));
-                let mut simulation = Simulation::on(machines::gpu(&shared, count), &setup).expect("a simulation");
+                let mut gpu = machines::gpu(&shared, count);
+                gpu.pretend(machine);
+                let mut simulation = Simulation::on(gpu, &setup).expect("a simulation");
                 simulation.step(1).expect("a step");
                 let plan: Plan = setup.plans(machine).expect("plans").step;
                 let count = u32::try_from(count).expect("few");

@@ -10,7 +10,7 @@ use motes::{Bounds, Setup, Side};
 
 use super::{cusp, gravity, on_gpu, setup, steps};
 use crate::support;
-use crate::support::states::{force, vector};
+use crate::support::states::{force, vector, word};
 
 fn refused(setup: &Setup, why: &str) {
     let shared = support::device();
@@ -26,9 +26,20 @@ fn what_acts_within_steps_is_refused() {
     let state = || cusp(40, 0.1, 1);
     let with =
         |more: Box<dyn Component>| setup(state(), vec![gravity(1.0, 0.01, "pairs", 0.0), more], 0.01, steps(4, 0.0));
-    refused(&with(force("speed_limit", &[])), "speed_limit acts within steps of equal length");
     refused(
-        &with(force("lennard_jones", &[("epsilon", Value::Number(0.01)), ("sigma", Value::Number(0.01))])),
+        &with(force("speed_limit", &[("max", Value::Number(1.0))])),
+        "speed_limit acts within steps of equal length",
+    );
+    refused(
+        &with(force(
+            "lennard_jones",
+            &[
+                ("epsilon", Value::Number(0.01)),
+                ("sigma", Value::Number(0.01)),
+                ("range", Value::Number(0.05)),
+                ("over", word("list")),
+            ],
+        )),
         "runs only when it must",
     );
     let mut held = setup(state(), vec![gravity(1.0, 0.01, "pairs", 0.0)], 0.01, steps(4, 0.0));
@@ -50,6 +61,9 @@ fn numbers_out_of_range_are_refused() {
     refused(&with(steps(11, 0.0)), "11 levels: choose 1 to 10");
     for eta in [0.0, -1.0, f64::NAN, f64::INFINITY] {
         refused(&with(BlockSteps { eta, ..steps(4, 0.0) }), "choose one above 0; 0.025 is usual");
+    }
+    for mass in [-1.0, f64::NAN, f64::INFINITY] {
+        refused(&with(BlockSteps { mass, ..steps(4, 0.0) }), "the mass of block steps");
     }
     for length in [-1.0, f64::NAN, f64::INFINITY] {
         refused(&with(steps(4, length)), "the length of block steps");
