@@ -15,8 +15,8 @@ use crate::error::Error;
 use crate::ewald;
 use crate::integrators::{SOLVE_REPORT, kept_rates};
 use crate::kernel::{
-    ALARM, Array, Backend, Column, Columns, HOME, ID, LARGEST_CRITERION, LIFE, LOW_WORDS, Pass, Plan, Problem, QUIET,
-    Role, STEP_CLOCK, STEP_CLOCK_WORDS, STEP_CRITERIA, TICKS, World, extent, split,
+    ALARM, Array, BLOCK_CLOCK, Backend, Column, Columns, HOME, ID, LARGEST_CRITERION, LIFE, LOW_WORDS, Pass, Plan,
+    Problem, QUIET, Role, STEP_CLOCK, STEP_CLOCK_WORDS, STEP_CRITERIA, TICKS, World, extent, split,
 };
 use crate::life::Life;
 use crate::links::Links;
@@ -64,7 +64,7 @@ pub(super) fn carried(plans: &Plans, columns: &Columns, count: u32) -> Vec<Carri
             all.push(Carried { len, each, ..one(&format!("{KEPT}{buffer}"), &like, true) });
         }
     }
-    let words = [ALARM.name, STEP_CLOCK.name, SOLVE_REPORT, DFSPH_REPORT];
+    let words = [ALARM.name, STEP_CLOCK.name, BLOCK_CLOCK.name, SOLVE_REPORT, DFSPH_REPORT];
     all.extend(words.map(|name| one(name, &whole, false)));
     all.push(one(DFSPH_ERRORS, &real, false));
     all.extend(LOW_WORDS.iter().map(|(_, low)| Carried { each: 1, ..one(low.name, &four, false) }));

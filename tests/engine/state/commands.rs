@@ -33,12 +33,15 @@ fn snapshots(folder: &Path, ending: &str) -> Vec<PathBuf> {
 fn a_run_from_an_archive_writes_the_same_files() {
     let folder = tempfile::tempdir().expect("a folder");
     let adaptive = ["--set", "simulation.adaptive=true"];
+    let blocks =
+        ["--set", "simulation.block_levels=6", "--set", "simulation.dt=0.05", "--set", "force.0.softening=0.02"];
     let breaks = ["--set", "force.1.strain=0.0003"];
     for (name, scene, more) in [
         ("motions", "wave_tank", &[][..]),
         ("births", "fountain_pool", &[]),
         ("adaptive", "dam_break_2d", &adaptive),
         ("broken", "tear", &breaks),
+        ("blocks", "plummer", &blocks),
     ] {
         let [first, second] = ["first", "second"].map(|part| folder.path().join(format!("{name}_{part}")));
         let output = run(scene, &first, more);

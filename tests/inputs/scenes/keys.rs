@@ -20,7 +20,7 @@ bodies = [{ position = [0, 0, 0] }]
    |
  3 | stepps = 10
    | ^^^^^^ did you mean `steps`?
-   = known here: `steps`, `until`, `until_redshift`, `integrator`, `dt`, `adaptive`, `dt_min`, `dt_before`, `cfl`, `precision`
+   = known here: `steps`, `until`, `until_redshift`, `integrator`, `dt`, `adaptive`, `dt_min`, `dt_before`, `cfl`, `block_levels`, `block_eta`, `block_length`, `block_mass`, `block_shared`, `precision`
 
 a.toml: 1 error",
     );
@@ -66,7 +66,7 @@ bodies = [{ position = [0, 0, 0] }]
    |
  4 | every = 5
    | ^^^^^ it belongs in [output]
-   = known here: `steps`, `until`, `until_redshift`, `integrator`, `dt`, `adaptive`, `dt_min`, `dt_before`, `cfl`, `precision`
+   = known here: `steps`, `until`, `until_redshift`, `integrator`, `dt`, `adaptive`, `dt_min`, `dt_before`, `cfl`, `block_levels`, `block_eta`, `block_length`, `block_mass`, `block_shared`, `precision`
 
 a.toml: 1 error",
     );

@@ -37,7 +37,7 @@ bodies = [{ position = [0, 0, 0] }]
    |
    | --set simulation.dtt=0.1
    |                  ^^^ did you mean `dt`?
-   = known here: `steps`, `until`, `until_redshift`, `integrator`, `dt`, `adaptive`, `dt_min`, `dt_before`, `cfl`, `precision`
+   = known here: `steps`, `until`, `until_redshift`, `integrator`, `dt`, `adaptive`, `dt_min`, `dt_before`, `cfl`, `block_levels`, `block_eta`, `block_length`, `block_mass`, `block_shared`, `precision`
 
 a.toml: 1 error",
     );
