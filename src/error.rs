@@ -93,8 +93,8 @@ pub enum Error {
     },
     /// Forces require a block time step that is shorter than the shortest. Remedy: more levels, a shorter step, or a larger softening.
     #[error(
-        "step {step} would have to be {wanted:.3e} long for particle {particle}, and the shortest block time step is dt / 2^{levels} = {least:.3e}: \
-         set more block_levels, a smaller dt, a larger block_eta, or a larger softening"
+        "step {step} would have to be {wanted:.3e} long at most for particle {particle}, and the shortest block time step is dt / 2^{levels} = {least:.3e}: \
+         set more block_levels (10 at most), a smaller dt, a larger block_eta, or a larger softening"
     )]
     TooManyLevels {
         /// The step, counted from 0.

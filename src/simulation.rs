@@ -30,7 +30,7 @@ mod unwritten;
 mod virial;
 
 pub use adaptive_step::Clock;
-pub use blocks::Levels;
+pub use blocks::{Levels, refuses_blocks};
 pub use inactive::serves;
 pub use pressures::PressureSolves;
 pub use readback::Readback;

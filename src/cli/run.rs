@@ -191,7 +191,7 @@ fn announce(run: &Run, progress: &mut Progress, remarks: &[String]) {
     progress.event(
         "start",
         json!({ "version": env!("CARGO_PKG_VERSION"), "scene": scene.name, "particles": count, "steps": scene.steps,
-            "dt": scene.dt, "integrator": scene.integrator.name, "device": device, "output": output }),
+            "dt": scene.dt, "block_levels": scene.block_steps.map(|steps| steps.levels), "integrator": scene.integrator.name, "device": device, "output": output }),
     );
     progress.say(&format!("{}: {count} particles, {} by {}", scene.name, course::words(scene), scene.integrator.name));
     progress.say(&format!("on {device}"));

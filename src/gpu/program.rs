@@ -47,6 +47,8 @@ pub(super) struct Dispatch {
     ready: usize,
     workgroups: Workgroups,
     pub work: u64,
+    /// Whether it is of a loop.
+    pub loops: bool,
 }
 
 /// The workgroups of a dispatch.
@@ -74,7 +76,7 @@ impl Program {
             owners: Vec::new(),
             cuts: Vec::new(),
         };
-        let mut builder = Builder { queue, pipelines, buffers, program, kernels: Vec::new() };
+        let mut builder = Builder { queue, pipelines, buffers, program, kernels: Vec::new(), depth: 0 };
         for kernel in &plan.kernels {
             let ready: Result<Vec<_>, _> = kernel.passes.iter().map(|pass| builder.ready(pass, &[])).collect();
             builder.kernels.push(ready?);
@@ -125,6 +127,8 @@ pub(super) struct Builder<'a> {
     program: Program,
     /// The indices of the compiled passes of each kernel.
     kernels: Vec<Vec<usize>>,
+    /// The number of loops around what is encoded.
+    pub depth: u32,
 }
 
 /// A buffer in place of a field of that name.
@@ -195,7 +199,8 @@ impl Builder<'_> {
             }
         };
         let work = ready.work;
-        self.program.dispatches.push(Dispatch { ready: place, workgroups, work });
+        let loops = self.depth > 0;
+        self.program.dispatches.push(Dispatch { ready: place, workgroups, work, loops });
         Ok(())
     }
     /// Adds the dispatches of an operation, controlled by a gate if there is one.

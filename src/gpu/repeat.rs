@@ -51,6 +51,7 @@ impl Gate<'_> {
 impl Repeat {
     /// Adds all iterations: the first is dispatched like the loop itself, each of the others depends on the one before it.
     pub fn encode(&self, builder: &mut Builder<'_>, outer: Option<&Gate<'_>>) -> Result<(), Error> {
+        builder.depth += 1;
         let mut places = Vec::new();
         for iteration in 0..self.most {
             if iteration > 0 {
@@ -65,6 +66,7 @@ impl Repeat {
                 builder.dispatch(self.proceed[1 - parity], gate)?;
             }
         }
+        builder.depth -= 1;
         builder.cut(places, &self.flag.0, self.flag.1);
         if self.most > 1 { builder.dispatch(self.reset, outer) } else { Ok(()) }
     }

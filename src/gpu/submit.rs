@@ -23,21 +23,28 @@ const LAUNCH: u64 = 20_000;
 /// The work of the first submission to a device of unknown speed, in pair evaluations: 0.1 s on a slow one.
 const FIRST: u64 = 50_000_000;
 
-/// In loops, a flag is read after so much of the work of a submission: reading takes less than a hundredth of that, and iterations that are not
-/// needed, which dispatch nothing but take their time in a submission, are few.
+/// In loops, a flag is read after so much of the declared work of a submission: few iterations are encoded that are not needed, which dispatch
+/// nothing but take their time in a submission.
 const LOOKS: u64 = 4;
+
+/// How much more than submissions without loops have shown to be right a submission with loops may have to do, if it declares no more than it does.
+const SPARE: u64 = 8;
 
 /// Dispatches of the next submission, and their work.
 #[derive(Default)]
 struct Batch<'a> {
     dispatches: Vec<&'a Dispatch>,
     work: u64,
+    /// Whether some are of loops.
+    loops: bool,
 }
 
 /// A submission in flight, and its work in pair evaluations.
 struct Flying {
     done: Done,
     work: u64,
+    /// Whether it has dispatches of loops.
+    loops: bool,
 }
 
 /// A queue with an estimate of the speed of its device.
@@ -47,6 +54,8 @@ pub struct Queue {
     flying: VecDeque<Flying>,
     last_done: Instant,
     budget: u64,
+    /// The budget as submissions without loops have found it: the work of iterations may be less than they declare.
+    sure: u64,
     target: Duration,
     patience: Duration,
     submissions: u64,
@@ -60,6 +69,7 @@ impl Queue {
             flying: VecDeque::new(),
             last_done: Instant::now(),
             budget: FIRST,
+            sure: FIRST,
             target: Duration::from_millis(80),
             patience: Duration::from_mins(2),
             submissions: 0,
@@ -67,14 +77,15 @@ impl Queue {
     }
     pub fn limit_submissions(&mut self, target: Duration, patience: Duration) {
         (self.target, self.patience) = (target, patience);
-        self.budget = FIRST;
+        (self.budget, self.sure) = (FIRST, FIRST);
     }
     pub fn wgpu(&self) -> wgpu::Queue {
         self.inner.clone()
     }
     /// Copies the estimate of the device's speed.
     pub fn like(&mut self, other: &Self) {
-        (self.target, self.patience, self.budget) = (other.target, other.patience, other.budget);
+        (self.target, self.patience) = (other.target, other.patience);
+        (self.budget, self.sure) = (other.budget, other.sure);
     }
     pub fn submissions(&self) -> u64 {
         self.submissions
@@ -103,6 +114,7 @@ impl Queue {
                     self.flush(program, &mut batch)?;
                 }
                 batch.dispatches.push(next);
+                batch.loops |= next.loops;
                 batch.work += work;
                 unseen += work;
                 at += 1;
@@ -115,8 +127,8 @@ impl Queue {
         if batch.dispatches.is_empty() {
             return Ok(());
         }
-        let Batch { dispatches, work } = std::mem::take(batch);
-        self.submit(program, &dispatches, work)
+        let batch = std::mem::take(batch);
+        self.submit(program, &batch)
     }
     /// Whether a loop has ended: reads its flag, after all that was submitted.
     #[cfg(not(target_arch = "wasm32"))]
@@ -135,7 +147,7 @@ impl Queue {
         Ok(false)
     }
 
-    fn submit(&mut self, program: &Program, batch: &[&Dispatch], work: u64) -> Result<(), Error> {
+    fn submit(&mut self, program: &Program, batch: &Batch<'_>) -> Result<(), Error> {
         while self.flying.len() >= IN_FLIGHT {
             self.land()?;
         }
@@ -147,12 +159,12 @@ impl Queue {
             {
                 let descriptor = wgpu::ComputePassDescriptor { label: Some("motes"), timestamp_writes: None };
                 let mut pass = encoder.begin_compute_pass(&descriptor);
-                program.encode_some(batch.iter().copied(), &mut pass);
+                program.encode_some(batch.dispatches.iter().copied(), &mut pass);
             }
             self.inner.submit([encoder.finish()])
         })?;
         self.submissions += 1;
-        self.flying.push_back(Flying { done: Done::of(&self.inner, index), work });
+        self.flying.push_back(Flying { done: Done::of(&self.inner, index), work: batch.work, loops: batch.loops });
         Ok(())
     }
 
@@ -178,7 +190,7 @@ impl Queue {
     }
     /// The oldest submission is complete: updates the estimate with its duration.
     fn landed(&mut self) {
-        let Some(Flying { work, .. }) = self.flying.pop_front() else { return };
+        let Some(Flying { work, loops, .. }) = self.flying.pop_front() else { return };
         let took = self.last_done.elapsed();
         self.last_done = Instant::now();
         // Short submissions are no measure of speed, and one slow submission should not reduce the next by much.
@@ -191,7 +203,11 @@ impl Queue {
                 reason = "a budget, not a count"
             )]
             let budget = (work as f64 * factor) as u64;
-            self.budget = budget.clamp(LAUNCH, 1 << 44);
+            let most = if loops { self.sure.saturating_mul(SPARE) } else { 1 << 44 };
+            self.budget = budget.clamp(LAUNCH, most.max(LAUNCH));
+            if !loops {
+                self.sure = self.budget;
+            }
         }
     }
 

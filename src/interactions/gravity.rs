@@ -272,7 +272,7 @@ impl Component for Gravity {
             expansion: Arc::clone(expansion),
             density: expansion.cosmology.mean_density(self.0.number("g")),
         });
-        let softening = Some(self.0.number("softening")).filter(|softening| *softening > 0.0);
+        let softening = Some(self.0.number("softening"));
         Properties { ignores_massless: true, largest, dissipates, expands, softening, ..Properties::default() }
     }
     fn stage(&self, stage: Stage, plan: &mut Plan, problem: &Problem) -> Result<(), Error> {

@@ -112,8 +112,13 @@ fn one(table: &Table<'_>, out: &mut Writer, report: &mut Report) -> Option<Colum
 }
 
 /// All columns of a scene: those of its forces, and those that it declares.
-pub(super) fn all(forces: &[Box<dyn Component>], declared: &[(Column, Place)], report: &mut Report) -> Columns {
-    let of_forces: Vec<Column> = declared_by(forces).collect();
+pub(super) fn all(
+    forces: &[Box<dyn Component>],
+    integrator: Vec<Column>,
+    declared: &[(Column, Place)],
+    report: &mut Report,
+) -> Columns {
+    let of_forces: Vec<Column> = declared_by(forces).chain(integrator).collect();
     // Faults of a force by itself are reported where it is built.
     let mut known = Columns::with(of_forces.clone()).unwrap_or_default();
     let mut all = of_forces;

@@ -40,7 +40,7 @@ pub(super) fn read(sections: &[(&'static str, Table<'_>)], files: &Files, most: 
     // An invalid force may declare columns that others use.
     if report.len() == faults {
         let forces: Vec<_> = chosen.into_iter().map(force::Chosen::build).collect();
-        let known = column::all(&forces, &declared, report);
+        let known = column::all(&forces, simulation.columns(), &declared, report);
         for table in all("particles") {
             particles::amount(table, &said, &column::givable(&known), report);
         }

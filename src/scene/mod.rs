@@ -283,7 +283,7 @@ fn read(sections: &[(&'static str, Table<'_>)], files: &Files, options: &Options
         }
     }
     let declared = column::read(all("column"), &mut out, report);
-    let columns = column::all(&forces, &declared, report);
+    let columns = column::all(&forces, simulation.columns(), &declared, report);
 
     let mut particles = State::default();
     let mut groups = Vec::new();
@@ -363,6 +363,15 @@ fn read(sections: &[(&'static str, Table<'_>)], files: &Files, options: &Options
     if let Some((_, place)) = &simulation.adaptive_step {
         force::adapted(&forces, place, report);
     }
+    if let Some((steps, place)) = &simulation.block_steps {
+        // What is wrong with its numbers is known.
+        let sound = steps.check().is_ok();
+        let steps =
+            if sound { *steps } else { BlockSteps { levels: 1, eta: 1.0, length: 1.0, mass: 0.0, shared: false } };
+        for why in crate::simulation::refuses_blocks(steps, &particles, &forces, simulation.dt) {
+            report.push(Fault::at(place, why));
+        }
+    }
     particles.motions = motions;
     let output = output::read(one("output"), (simulation.steps, simulation.dt), &columns, report);
     output.write(&mut out);
@@ -398,7 +407,7 @@ fn read(sections: &[(&'static str, Table<'_>)], files: &Files, options: &Options
         until: simulation.until,
         precision: simulation.precision,
         adaptive_step: simulation.adaptive_step.map(|(adaptive_step, _)| adaptive_step),
-        block_steps: simulation.block_steps,
+        block_steps: simulation.block_steps.map(|(steps, _)| steps),
         integrator: simulation.integrator,
         integrator_settings: simulation.integrator_settings,
         solver,

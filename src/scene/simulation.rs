@@ -1,8 +1,8 @@
 //! `[simulation]`: the time step, the number of steps and the integrator.
 
-use crate::integrators::{self, INTEGRATORS, Integrator};
+use crate::integrators::{self, BlockLeapfrog, INTEGRATORS, Integrator};
 use crate::interactions::gravity;
-use crate::kernel::{AdaptiveStep, BlockSteps, Precision};
+use crate::kernel::{AdaptiveStep, BlockSteps, Column, Precision};
 use crate::settings::{Key, Kind, Settings, Value};
 
 use super::report::{Fault, Place, Report};
@@ -63,7 +63,7 @@ pub(super) const KEYS: &[Key] = &[
         "block_mass",
         Kind::NotNegative,
         Value::Number(0.0),
-        "particles that are heavier take the shortest of these steps; 0 for a hundred times the mean [mass]",
+        "particles that are heavier take the shortest of these steps; 0 for a hundred times the median [mass]",
     ),
     Key::new("block_shared", Kind::Flag, Value::Flag(false), "whether all particles take the shortest of these steps"),
     Key::new(
@@ -86,8 +86,8 @@ pub(super) struct Simulation {
     pub(super) integrator_settings: Settings,
     /// The adaptive time step, if steps are adaptive, and its place in the scene.
     pub(super) adaptive_step: Option<(AdaptiveStep, Place)>,
-    /// The block time steps, if particles have steps of their own.
-    pub(super) block_steps: Option<BlockSteps>,
+    /// The block time steps, if particles have steps of their own, and their place in the scene.
+    pub(super) block_steps: Option<(BlockSteps, Place)>,
     /// The precision of positions and velocities.
     pub(super) precision: Precision,
     /// The end time.
@@ -252,7 +252,12 @@ fn adaptive_step(
 }
 
 /// The block time steps, if particles have steps of their own.
-fn block_steps(table: &Table<'_>, settings: &Settings, of: &Simulation, report: &mut Report) -> Option<BlockSteps> {
+fn block_steps(
+    table: &Table<'_>,
+    settings: &Settings,
+    of: &Simulation,
+    report: &mut Report,
+) -> Option<(BlockSteps, Place)> {
     let levels = settings.whole("block_levels");
     let entry = table.get("block_levels").filter(|_| levels > 0);
     let Some(entry) = entry else {
@@ -270,18 +275,21 @@ fn block_steps(table: &Table<'_>, settings: &Settings, of: &Simulation, report: 
         mass: settings.number("block_mass"),
         shared: settings.flag("block_shared"),
     };
-    if let Err(error) = steps.check(of.dt) {
+    if let Err(error) = steps.check() {
         report.push(Fault::at(&entry.place, "block time steps are out of range").label(error.to_string()));
     }
-    let fault = Fault::at(&entry.place, "block time steps are those of leapfrog");
+    let of_leapfrog =
+        || Fault::at(&entry.place, "block time steps are those of leapfrog, of single precision and a fixed dt");
     if of.integrator.name != "leapfrog" {
-        report.push(fault.label(format!("choose integrator = \"leapfrog\", and not {}", of.integrator.name)));
-    } else if of.precision != Precision::Single {
-        report.push(fault.label("with precision = \"single\": leave either out"));
-    } else if of.adaptive_step.is_some() {
-        report.push(fault.label("with a fixed longest step dt: leave out adaptive, or this"));
+        report.push(of_leapfrog().label(format!("choose integrator = \"leapfrog\", and not {}", of.integrator.name)));
     }
-    Some(steps)
+    if of.precision != Precision::Single {
+        report.push(of_leapfrog().label("leave out `precision`, or this"));
+    }
+    if of.adaptive_step.is_some() {
+        report.push(of_leapfrog().label("leave out `adaptive`, or this"));
+    }
+    Some((steps, entry.place.clone()))
 }
 
 /// The number of steps to `until`: the quotient up to rounding errors, and the next integer if it is none.
@@ -313,6 +321,13 @@ impl Simulation {
     pub(super) fn made(&self) -> Box<dyn Integrator> {
         (self.integrator.build)(&self.integrator_settings)
     }
+    /// The columns of the integrator, with block time steps.
+    pub(super) fn columns(&self) -> Vec<Column> {
+        match &self.block_steps {
+            Some((steps, _)) => BlockLeapfrog(*steps).columns(),
+            None => self.made().columns(),
+        }
+    }
     pub(super) fn write(&self, out: &mut Writer) {
         out.header("[simulation]");
         out.number("dt", self.dt);
@@ -326,7 +341,7 @@ impl Simulation {
             }
             None => out.line("steps", &self.steps.to_string()),
         }
-        if let Some(steps) = self.block_steps {
+        if let Some((steps, _)) = &self.block_steps {
             out.line("block_levels", &steps.levels.to_string());
             out.number("block_eta", steps.eta);
             out.number("block_length", steps.length);

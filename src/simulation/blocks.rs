@@ -2,13 +2,17 @@
 
 use super::{Setup, Simulation};
 use crate::error::Error;
-use crate::kernel::{Array, BLOCK_CLOCK, BLOCK_CLOCK_START, BLOCK_CLOCK_WORDS, Backend, BlockSteps, STEP_LEVEL};
+use crate::forces::{Component, Over};
+use crate::kernel::{
+    Array, BLOCK_CLOCK, BLOCK_CLOCK_START, BLOCK_CLOCK_WORDS, Backend, BlockSteps, Column, STEP_LEVEL,
+};
 use crate::motion::Hold;
+use crate::state::State;
 
 /// The column of softenings of particles.
 const OWN_LENGTH: &str = "softening_length";
 
-/// Particles of so many times the mean mass take the shortest step: at most one in so many does.
+/// Particles of so many times the median mass take the shortest step.
 const HEAVY: f64 = 100.0;
 
 /// The steps that particles have had.
@@ -38,52 +42,99 @@ impl Levels {
     }
 }
 
-impl Setup {
-    /// The block time steps, with the length of their criterion; 0 where particles have their own.
-    pub(super) fn block_steps(&self) -> Option<BlockSteps> {
-        let steps = self.integrator.block_steps()?;
-        let mean = self.state.mass().iter().sum::<f64>() / self.state.mass().len().max(1) as f64;
-        let steps = if steps.mass == 0.0 { BlockSteps { mass: HEAVY * mean, ..steps } } else { steps };
-        let own = self.forces.iter().flat_map(|force| force.columns()).any(|column| column.name == OWN_LENGTH);
-        if steps.length > 0.0 || own {
-            return Some(steps);
+/// The steps with what they leave to the forces and the particles: the length of the criterion, 0 where particles have their own, and the mass
+/// above which particles take the shortest step.
+fn resolved(steps: BlockSteps, state: &State, forces: &[Box<dyn Component>]) -> BlockSteps {
+    let softenings = forces.iter().filter_map(|force| force.properties().softening);
+    let common = if have_own(forces) { 0.0 } else { softenings.reduce(f64::min).unwrap_or(0.0) };
+    let length = if steps.length > 0.0 { steps.length } else { common };
+    // As files and devices have them: a run that goes on has the same steps.
+    #[expect(clippy::cast_possible_truncation, reason = "single precision")]
+    let single = state.mass().iter().map(|mass| f64::from(*mass as f32)).filter(|mass| *mass > 0.0);
+    let mut masses: Vec<f64> = single.collect();
+    masses.sort_by(f64::total_cmp);
+    let median = masses.get(masses.len() / 2).copied().unwrap_or(0.0);
+    let mass = if steps.mass > 0.0 { steps.mass } else { HEAVY * median };
+    BlockSteps { length, mass: mass.min(f64::from(f32::MAX)), ..steps }
+}
+
+/// Whether particles have softenings of their own.
+fn have_own(forces: &[Box<dyn Component>]) -> bool {
+    forces.iter().flat_map(|force| force.columns()).any(|column| column.name == OWN_LENGTH)
+}
+
+/// The reasons for which block time steps of `dt` are impossible for these particles and forces, each whole.
+#[must_use]
+pub fn refuses_blocks(given: BlockSteps, state: &State, forces: &[Box<dyn Component>], dt: f64) -> Vec<String> {
+    let mut all = Vec::new();
+    if let Err(why) = given.check() {
+        return vec![why.to_string()];
+    }
+    let steps = resolved(given, state, forces);
+    let own = have_own(forces) && steps.length == 0.0;
+    let demand = steps.demand(dt, if own { 1.0 } else { steps.length });
+    let single = f64::from(f32::MIN_POSITIVE)..=f64::from(f32::MAX);
+    if steps.length == 0.0 && !own {
+        all.push(
+            "block time steps are at most √(2 η ε / |a|), and there is no gravity with a softening ε above 0: give each gravity one, or block_length, the \
+             distance over which forces change"
+                .to_owned(),
+        );
+    } else if !single.contains(&demand) {
+        all.push(format!(
+            "block time steps compare accelerations with 2 η ε / dt² = {:e}, which is out of the range of single precision: choose other units",
+            1.0 / demand
+        ));
+    }
+    let mut refuse = |why: String| {
+        all.push(format!("block time steps are for forces alone, and {why}: leave that out, or block_levels"));
+    };
+    if state.has_inactive() || state.capacity.is_some() {
+        refuse("particles are spawned or removed here".to_owned());
+    }
+    if state.held.iter().any(|held| held.by != Hold::Fixed) {
+        refuse("particles are moved along paths here".to_owned());
+    }
+    let advanced =
+        |column: &&Column| column.rate.is_some() && !["position", "velocity"].contains(&column.name.as_ref());
+    for force in forces {
+        let (name, properties) = (force.name(), force.properties());
+        let columns = force.columns();
+        if let Some(why) = properties.fixed_step {
+            refuse(format!("{name} is for steps of equal length ({why})"));
+        } else if properties.constrains
+            || properties.keeps_rods
+            || properties.limits_links
+            || properties.barostat.is_some()
+        {
+            refuse(format!("{name} changes positions or velocities other than by forces"));
+        } else if let Some(column) = columns.iter().find(advanced) {
+            refuse(format!("all steps advance the column `{}` of {name} by its rate", column.name));
+        } else if force.laws().iter().any(|law| matches!(law.over, Over::List { .. })) {
+            refuse(format!("{name} is over a neighbour list, which is kept over steps"));
+        } else if let Some(word) = ["world.dt", "world.step"]
+            .into_iter()
+            .find(|word| force.laws().iter().any(|law| law.wgsl.text.contains(word)))
+        {
+            refuse(format!("{name} reads `{word}`, which is that of a part of the step"));
         }
-        let softenings = self.forces.iter().filter_map(|force| force.properties().softening);
-        let length = softenings.reduce(f64::min).unwrap_or(0.0);
-        Some(BlockSteps { length, ..steps })
+    }
+    for column in state.declared().filter(advanced) {
+        refuse(format!("all steps advance the column `{}` by its rate", column.name));
+    }
+    all
+}
+
+impl Setup {
+    /// The block time steps, with the length of their criterion.
+    pub(super) fn block_steps(&self) -> Option<BlockSteps> {
+        Some(resolved(self.integrator.block_steps()?, &self.state, &self.forces))
     }
     /// Refuses what block time steps are not compatible with.
     pub(super) fn serves_blocks(&self) -> Result<(), Error> {
-        let (Some(given), Some(steps)) = (self.integrator.block_steps(), self.block_steps()) else { return Ok(()) };
-        given.check(self.dt)?;
-        steps.check(self.dt)?;
-        let own = self.forces.iter().flat_map(|force| force.columns()).any(|column| column.name == OWN_LENGTH);
-        if steps.length == 0.0 && !own {
-            return Err(Error::Scene(
-                "block time steps are at most √(2 η ε / |a|), and no force has a softening ε: give gravity a softening, or block_length, the \
-                 distance over which forces change"
-                    .to_owned(),
-            ));
-        }
-        let refuse = |why: &str| {
-            Err(Error::Scene(format!(
-                "block time steps are for forces alone, and {why}; leave block_levels out, or that"
-            )))
-        };
-        if self.state.has_inactive() || self.state.capacity.is_some() {
-            return refuse("particles are spawned or removed here");
-        }
-        if self.state.held.iter().any(|held| held.by != Hold::Fixed) {
-            return refuse("particles are moved along paths here");
-        }
-        if self.elastic().is_some() {
-            return refuse("the box changes here");
-        }
-        let columns = self.columns()?;
-        match columns.pairs().first() {
-            Some(pair) => {
-                refuse(&format!("the column `{}` has a rate by which all steps advance it", pair.column.name))
-            }
+        let Some(steps) = self.integrator.block_steps() else { return Ok(()) };
+        match refuses_blocks(steps, &self.state, &self.forces, self.dt).into_iter().next() {
+            Some(why) => Err(Error::Scene(why)),
             None => Ok(()),
         }
     }

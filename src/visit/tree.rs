@@ -132,6 +132,10 @@ fn binds_few(law: &Law, tree: &Tree, problem: &Problem, shader: &Shader) -> Resu
     if storage <= STORAGE || !has_demands || *machine == Machine::HOST {
         return Ok(());
     }
+    if !is_relative && storage > STORAGE + 1 {
+        // Without block time steps it has too many as well, which is reported where it is compiled.
+        return Ok(());
+    }
     if !is_relative {
         return Err(Error::Scene(format!(
             "`{}` over a tree binds {storage} storage buffers in block time steps, and devices have {STORAGE}: leave block_levels out, or take \

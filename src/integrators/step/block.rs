@@ -2,16 +2,14 @@
 
 use super::Step;
 use crate::error::Error;
-use crate::forces::Stage;
 use crate::integrators::verbs::block;
-use crate::kernel::{BLOCK_CLOCK, Pass, Plan};
+use crate::kernel::{BLOCK_CLOCK, Pass};
 
 impl Step<'_> {
     /// A step in parts, each as long as the shortest step of any particle: kicks at the ends of particles' own steps, drifts of all.
     /// Forces are evaluated of those that are kicked.
     pub fn block_steps(&mut self) {
         let Some(steps) = self.problem.block_steps else { return };
-        self.bears_parts();
         self.add(block::begin(&self.problem));
         let before = std::mem::take(&mut self.plan);
         self.in_parts = true;
@@ -37,17 +35,6 @@ impl Step<'_> {
     pub(super) fn due(&mut self) {
         if self.problem.block_steps.is_some() && !self.in_parts {
             self.add(block::begin(&self.problem));
-        }
-    }
-    /// Refuses components that act within steps other than by laws.
-    fn bears_parts(&mut self) {
-        let stages = [Stage::StartOfStep, Stage::AfterKick, Stage::AfterDrift { factor: 1.0 }];
-        for force in self.forces {
-            let mut plan = Plan::default();
-            let made = stages.into_iter().try_for_each(|stage| force.stage(stage, &mut plan, &self.problem));
-            if made.is_ok() && !plan.is_empty() {
-                self.refuse(&format!("{} acts within steps of equal length", force.name()));
-            }
         }
     }
     fn refuse(&mut self, why: &str) {

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 use motes::error::Error;
-use motes::forces::Component;
+use motes::forces::{Component, Custom, Over};
 use motes::kernel::BlockSteps;
 use motes::motion::{Held, Hold};
 use motes::settings::Value;
@@ -28,7 +28,7 @@ fn what_acts_within_steps_is_refused() {
         |more: Box<dyn Component>| setup(state(), vec![gravity(1.0, 0.01, "pairs", 0.0), more], 0.01, steps(4, 0.0));
     refused(
         &with(force("speed_limit", &[("max", Value::Number(1.0))])),
-        "speed_limit acts within steps of equal length",
+        "speed_limit changes positions or velocities other than by forces",
     );
     refused(
         &with(force(
@@ -40,8 +40,13 @@ fn what_acts_within_steps_is_refused() {
                 ("over", word("list")),
             ],
         )),
-        "runs only when it must",
+        "lennard_jones is over a neighbour list",
     );
+    refused(&with(force("wander", &[("strength", Value::Number(0.1))])), "wander is for steps of equal length");
+    refused(&with(force("langevin", &[("temperature", Value::Number(0.1))])), "langevin is for steps of equal length");
+    let text = "fn force(me: Particle) -> vec4f { return vec4f(0.1 / world.dt, 0.0, 0.0, 0.0); }";
+    let reads = Custom::new("kick", "kick.wgsl", text, Over::Each);
+    refused(&with(Box::new(reads)), "kick reads `world.dt`");
     let mut held = setup(state(), vec![gravity(1.0, 0.01, "pairs", 0.0)], 0.01, steps(4, 0.0));
     held.state.held = vec![Held { id: 3, by: Hold::Target }];
     refused(&held, "particles are moved along paths");
@@ -70,7 +75,7 @@ fn numbers_out_of_range_are_refused() {
     }
     refused(&with(steps(4, 1e-50)), "out of the range of single precision");
     let bare = setup(cusp(40, 0.1, 1), vec![gravity(1.0, 0.0, "pairs", 0.0)], 0.01, steps(4, 0.0));
-    refused(&bare, "no force has a softening");
+    refused(&bare, "no gravity with a softening");
 }
 
 #[test]
