@@ -8,15 +8,16 @@ use serde_json::{Value, json};
 
 /// The number and the length of steps, such as `1000 steps of 0.001`.
 pub fn words(scene: &Scene) -> String {
-    match scene.adaptive_step {
-        Some(adaptive_step) => {
-            format!("{} of time in steps of {} to {}", plain(scene.until), plain(adaptive_step.least), plain(scene.dt))
-        }
-        None => {
-            let blocks = scene.block_steps.map(|blocks| format!(", in block steps down to dt / {}", blocks.whole()));
-            format!("{} of {}{}", steps(scene.steps), plain(scene.dt), blocks.unwrap_or_default())
-        }
+    if let Some(adaptive_step) = scene.adaptive_step {
+        return format!(
+            "{} of time in steps of {} to {}",
+            plain(scene.until),
+            plain(adaptive_step.least),
+            plain(scene.dt)
+        );
     }
+    let blocks = scene.block_steps.map(|blocks| format!(", in block steps down to dt / {}", blocks.whole()));
+    format!("{} of {}{}", steps(scene.steps), plain(scene.dt), blocks.unwrap_or_default())
 }
 
 /// `1 step`, `2 steps`.

@@ -278,16 +278,18 @@ fn block_steps(
     if let Err(error) = steps.check() {
         report.push(Fault::at(&entry.place, "block time steps are out of range").label(error.to_string()));
     }
-    let of_leapfrog =
-        || Fault::at(&entry.place, "block time steps are those of leapfrog, of single precision and a fixed dt");
+    let of_leapfrog = |key: &str, label: &'static str| {
+        let place = table.get(key).map_or(&entry.place, |entry| &entry.place);
+        Fault::at(place, "block time steps are those of leapfrog, of single precision and a fixed dt").label(label)
+    };
     if of.integrator.name != "leapfrog" {
-        report.push(of_leapfrog().label(format!("choose integrator = \"leapfrog\", and not {}", of.integrator.name)));
+        report.push(of_leapfrog("integrator", "choose \"leapfrog\", or leave out block_levels"));
     }
     if of.precision != Precision::Single {
-        report.push(of_leapfrog().label("leave out `precision`, or this"));
+        report.push(of_leapfrog("precision", "choose \"single\", or leave out block_levels"));
     }
     if of.adaptive_step.is_some() {
-        report.push(of_leapfrog().label("leave out `adaptive`, or this"));
+        report.push(of_leapfrog("adaptive", "leave this out, or block_levels"));
     }
     Some((steps, entry.place.clone()))
 }

@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use super::{Law, Over};
 use crate::error::Error;
 use crate::kernel::{ACCELERATION, DUE, Field, Host, Kernel, Pass, Problem, Reference, Shader};
 use crate::primitives::scan;
@@ -11,6 +12,15 @@ pub(super) const ROWS: &str = "due_rows";
 const DUE_ROWS: Field<u32> = Field::new(ROWS);
 /// The number of particles before each that are due.
 const BEFORE: &str = "due_before";
+
+impl Law {
+    /// Whether it is evaluated of particles that are due alone: one that accelerates, by all pairs or a tree, in block time steps.
+    #[must_use]
+    pub fn of_due(&self, problem: &Problem) -> bool {
+        let searched = matches!(self.chosen(problem), Over::Pairs | Over::Within { .. } | Over::Tree { .. });
+        problem.block_steps.is_some() && searched && self.into == [ACCELERATION.name]
+    }
+}
 
 /// Lists the particles that are due.
 ///

@@ -341,12 +341,6 @@ impl Law {
             _ => self.faster(problem),
         }
     }
-    /// Whether it is evaluated of particles that are due alone: one that accelerates, by all pairs or a tree, in block time steps.
-    #[must_use]
-    pub fn of_due(&self, problem: &Problem) -> bool {
-        let searched = matches!(self.chosen(problem), Over::Pairs | Over::Within { .. } | Over::Tree { .. });
-        problem.block_steps.is_some() && searched && self.into == [ACCELERATION.name]
-    }
     /// What it loads of its neighbours.
     pub(super) fn loads(&self) -> Loads {
         if self.outlined.is_some() || self.search.is_some() {

@@ -18,12 +18,13 @@ use crate::support::{Random, Shared};
 const BEHIND: &str = "what is behind the last particle is read by none";
 
 const FEW_GROUPS: &str = "so few groups are one workgroup; tests/physics/blocks/kernels.rs has more";
+const ALIKE: &str = "all invocations would write the same";
 const NEEDLESS: &str = "more is loaded or evaluated than need be, and not delivered";
 
 pub const EQUIVALENT: &[Equivalent] = &[
-    same("block_level", "while steps > 1.0", ">", ">=", "no particle requires just a power of two"),
     same("block_level", "return select(0.0, most", ">", ">=", "what is no number is not above 1 either"),
-    same("block_advance", "if lacking != ~0u", "0u", "1u", "there are not so many particles"),
+    same("block_begin", "if i == 0u", "==", "!=", ALIKE),
+    same("block_begin", "if i == 0u", "0u", "1u", ALIKE),
     same("tree/due", "let g = folded", "*", "/", FEW_GROUPS),
     same("tree/due", "if first < world.count", "<", "<=", "the demand of what is no group is read by none"),
     same("due_count", "if i < world.count", "<", "<=", BEHIND),
@@ -140,7 +141,8 @@ fn given(device: &Device, stages: &mut Vec<Stage>) {
                     1 => Vec4::new(-a, 0.0, 0.7 * a, 1.0),
                     2 => Vec4::new(0.2 * a, -0.5 * a, 0.0, 1.0),
                     3 => Vec4::new(0.0, 0.0, 0.0, 1.0),
-                    _ => Vec4::new(if k == 4 { 1e38 } else { a }, 0.0, 0.0, 1.0),
+                    _ if k == 4 => Vec4::new(1e38, 0.0, 0.0, 1.0),
+                    _ => Vec4::new(0.0, a, 0.0, 1.0),
                 }
             };
             put(&mut simulation, ACCELERATION, &(0..FEW).map(of).collect::<Vec<_>>());
@@ -149,13 +151,27 @@ fn given(device: &Device, stages: &mut Vec<Stage>) {
     }
 }
 
+/// Groups of targets of which only the first is due: those before them are not.
+fn firsts(device: &Device, stages: &mut Vec<Stage>) {
+    let plan = setup(Case("tree", 0.0, 4, 0.02, 0.0, false)).plans(Machine::HOST).expect("plans").step;
+    let kernel = plan.kernels.into_iter().find(|kernel| kernel.name.starts_with("due groups")).expect("a kernel");
+    let name = kernel.passes[0].field("tree_id").to_owned();
+    let (mut simulation, plan) = (moving(device, FEW, Some(Machine::HOST)), alone(kernel));
+    simulation.backend().compile(&plan).expect("a good plan");
+    let ids: Vec<u32> = (0..).take(FEW).collect();
+    simulation.backend().write_bytes(&name, 0, bytemuck::cast_slice(&ids)).expect("ids");
+    put(&mut simulation, DUE, &(0..FEW).map(|k| u32::from(k % 96 == 64)).collect::<Vec<_>>());
+    stages.push(Stage::of("due groups, of a first", simulation, plan));
+}
+
 pub fn all(shared: &Shared, device: &Device, stages: &mut Vec<Stage>) {
     let host = Machine::HOST;
     given(device, stages);
-    step(device, "of its own", host, Case("pairs", 0.0, 6, 0.02, 0.0, false), ("integrators/block_", 20), stages);
+    firsts(device, stages);
+    step(device, "of its own", host, Case("pairs", 0.0, 6, 0.3, 0.0, false), ("integrators/block_", 20), stages);
     step(device, "shared", host, Case("pairs", 0.0, 4, 0.02, 0.0, true), ("integrators/block_", 3), stages);
     // The heavy one is just not heavier.
-    step(device, "too long", host, Case("pairs", 0.0, 2, 0.002, 1.0, false), ("integrators/block_", 3), stages);
+    step(device, "too long", host, Case("pairs", 0.0, 5, 0.002, 1.0, false), ("integrators/block_", 3), stages);
     step(device, "of own length", host, Case("pairs", 0.0, 5, 0.0, 0.0, false), ("integrators/block_", 3), stages);
     for (name, machine) in machines(shared) {
         step(device, name, machine, Case("pairs", 0.0, 4, 0.02, 0.0, false), ("_due", 3), stages);

@@ -129,7 +129,7 @@ fn on_one_level_it_is_leapfrog_to_the_bit() {
             let got = bytes(&mut block);
             let levels = levels(&mut block);
             let mut want = vec![0; 5];
-            want[level as usize] = 700;
+            want[usize::try_from(level).expect("a level")] = 700;
             assert_eq!(levels.particles, want, "{over}");
             let parts = 1 << level;
             let even = Setup::new(state, forces(), dt / f64::from(parts));

@@ -34,8 +34,7 @@ fn energy_is_kept_better_than_by_equal_steps_of_equal_work() {
         assert!(levels.finest() - least >= 6, "{levels:?}");
         assert!(levels.work() < 0.2, "{levels:?}: {}", levels.work());
         // As many evaluations in steps of equal length.
-        let all: f64 = levels.particles.iter().enumerate().map(|(l, n)| *n as f64 * 2.0_f64.powi(l as i32)).sum();
-        let each = (all / count).ceil();
+        let each = (levels.evaluations as f64 / (20.0 * count)).ceil();
         let mut even = on_gpu(&shared, &Setup::new(start, forces(), dt / each));
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "few")]
         even.step(20 * each as u32).expect("steps");
