@@ -23,8 +23,8 @@ fn walk(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: ve
     var sum_c = Sum();
     var sum_d = Sum();
     var search = begun();
-    // Those of the group itself are evaluated one by one.
-    var ours = GROUP;
+    // Those of the group itself are evaluated one by one. A group that does not walk meets nothing.
+    var ours = select(0u, GROUP, there);
     let kept = first - tree.first;
     if tree.again > 0u {
         sum_a = tree_kept[kept + place].sum;
@@ -34,10 +34,7 @@ fn walk(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: ve
         search = resumed(vec3u(tree_kept[kept].at, tree_kept[kept + 1u].at, tree_kept[kept + 2u].at));
         ours = 0u;
     }
-    if !there {
-        search.more = false;
-        ours = 0u;
-    }
+    search.more = search.more && there;
     let walks = there && (tree.again == 0u || search.more);
     var lists = Lists();
     // So many entries have been evaluated, and of one of leaves this is left.

@@ -48,6 +48,7 @@ pub const EQUIVALENT: &[Equivalent] = &[
         .sometimes(),
     same("tree_look", "if turn < countOneBits(fars)", "<", "<=", WRITTEN_OVER),
     same("tree_look", "if leaf && rest != 0u", "&&", "||", WRITTEN_OVER),
+    same("tree_subgroup", "var ours = select(", "0u", "1u", BEHIND),
     same("tree_subgroup", "let n = subgroupMax(", "0u", "1u", "a node that is listed has a higher number"),
     same("tree_look", "fn begun()", "0u", "1u", MARGIN).sometimes(),
     same("tree_subgroup", "search.spent += 1u;", "1u", "2u", MARGIN).sometimes(),
