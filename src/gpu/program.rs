@@ -26,8 +26,10 @@ pub(super) struct Cut {
     /// The first dispatch after the iterations.
     pub end: usize,
     /// The buffer of the flag.
+    #[cfg_attr(target_arch = "wasm32", expect(dead_code, reason = "a browser is not waited for"))]
     pub flag: wgpu::Buffer,
     /// The byte of the flag.
+    #[cfg_attr(target_arch = "wasm32", expect(dead_code, reason = "a browser is not waited for"))]
     pub byte: u64,
 }
 
