@@ -6,7 +6,6 @@ use crate::error::Error;
 use crate::forces::{Component, Problem, Stage};
 use crate::integrators::verbs::{adaptive, at, keep, life, tick, watch};
 use crate::kernel::{Kernel, Plan};
-use crate::tree::Opening;
 
 impl<'a> Step<'a> {
     /// The start plan: the integrator's kernels, and a check for numbers that are not finite at the start, while only the particles at
@@ -34,7 +33,7 @@ impl<'a> Step<'a> {
     /// Whether an evaluation depends on the accelerations of the previous one.
     fn looks_back(&self) -> bool {
         let mut laws = self.forces.iter().flat_map(|force| force.laws());
-        laws.any(|law| law.tree(&self.problem).is_some_and(|tree| matches!(tree.opening, Opening::Relative { .. })))
+        laws.any(|law| law.tree(&self.problem).is_some_and(|tree| tree.opening.is_relative()))
     }
     /// The plan of one step: the integrator's kernels, a check for numbers that are not finite, the step counter, spawns and drains.
     ///
