@@ -10,7 +10,7 @@ use motes::integrators::BlockLeapfrog;
 use motes::kernel::{Backend, BlockSteps};
 use motes::settings::Value;
 use motes::simulation::Levels;
-use motes::{ACCELERATION, Bounds, POSITION, Setup, Simulation, Solver, State, VELOCITY};
+use motes::{ACCELERATION, Bounds, POSITION, Setup, Side, Simulation, Solver, State, VELOCITY};
 
 use crate::support::states::{self, cpu, force, one, vector, word};
 use crate::support::{self, Random, Shared};
@@ -137,6 +137,46 @@ fn on_one_level_it_is_leapfrog_to_the_bit() {
             even.step(3 * u32::try_from(parts).expect("few")).expect("steps");
             assert!(got == bytes(&mut even), "{over}, level {level}, shared: {is_shared}");
         }
+    }
+}
+
+/// The same with all images of a box where space expands: every part of a step has the scale factor of its own time.
+#[test]
+fn on_one_level_it_is_leapfrog_to_the_bit_where_space_expands() {
+    let shared = support::device();
+    let dt = 1.0 / 64.0;
+    let bounds = Bounds::new(DVec3::splat(-2.0), DVec3::splat(2.0), Side::Periodic);
+    for (seed, over, level) in [(1, "pairs", 2), (2, "tree", 3), (3, "tree", 0)] {
+        let forces = |hubble: f64| {
+            let settings = [
+                ("g", Value::Number(0.8)),
+                ("softening", Value::Number(0.1)),
+                ("over", word(over)),
+                ("images", word("ewald")),
+                ("hubble", Value::Number(hubble)),
+                ("redshift", Value::Number(3.0)),
+            ];
+            vec![force("gravity", &settings), force("uniform", &[("acceleration", vector(0.0, 0.0, -10.0))])]
+        };
+        let state = support::cloud(700, seed);
+        let length = 10.0 * (0.75 * dt * 2.0 * 0.5_f64.powi(level)).powi(2) / (2.0 * ETA);
+        let block = setup(state.clone(), forces(1.7), dt, steps(4, length));
+        let mut block = on_gpu(&shared, &Setup { bounds, ..block });
+        block.step(3).expect("steps");
+        let mut want = vec![0; 5];
+        want[usize::try_from(level).expect("a level")] = 700;
+        assert_eq!(levels(&mut block).particles, want, "{over}");
+        let parts = 1 << level;
+        let even = |hubble| {
+            let even = Setup { bounds, ..Setup::new(state.clone(), forces(hubble), dt / f64::from(parts)) };
+            let mut even = on_gpu(&shared, &even);
+            even.step(3 * u32::try_from(parts).expect("few")).expect("steps");
+            bytes(&mut even)
+        };
+        let got = bytes(&mut block);
+        assert!(got == even(1.7), "{over}, level {level}");
+        // The expansion of a part of a step shows: scale factors differ by a thousandth here.
+        assert!(got != even(1.702), "{over}, level {level}");
     }
 }
 
