@@ -1,9 +1,11 @@
 //! Fluids over a neighbour list: what the cell list finds, at any skin, as they move.
 
 use motes::kernel::{Backend, Machine};
+use motes::life::Drain;
 use motes::lockstep::compare;
 use motes::neighbors::LIST_STATE;
 use motes::settings::Value;
+use motes::solids::Solid;
 use motes::visit::{Loads, few_neighbors};
 use motes::{Gpu, POSITION, Setup, Side, Simulation};
 
@@ -134,6 +136,38 @@ fn what_is_born_is_on_the_list() {
     pollster::block_on(simulation.check()).expect("no alarm");
     assert!(fluid(&mut simulation) > before + 5, "{before}");
     agrees(&mut simulation, &setup, "fountain_pool");
+}
+
+/// Particles that a drain removes while a list is old are no neighbours any more: the run is that over cells, which are sorted in every step.
+#[test]
+fn what_is_removed_is_no_neighbour() {
+    let shared = support::device();
+    for more in cases() {
+        let run = |settings: &[(&'static str, Value)]| {
+            let mut setup = moving(500, true, Side::Periodic, settings);
+            let position = 0.5 * (setup.bounds.low + setup.bounds.high);
+            let solid = Solid::Sphere(5.0 * SPACING);
+            setup.state.drains = vec![Drain { solid, position, outside: false, species: None }];
+            let mut simulation = gpu(&shared, &setup);
+            let removed = [1, 11, STEPS - 12].map(|steps| {
+                simulation.step(steps).expect("steps");
+                pollster::block_on(simulation.check()).expect("no alarm");
+                pollster::block_on(simulation.population()).expect("a count").removed
+            });
+            (simulation, setup, removed)
+        };
+        let (mut near, _, want) = run(&over("near", 0.0, &more));
+        let (mut list, setup, removed) = run(&over("list", 0.6, &more));
+        // Some steps use the list of an earlier one, while particles move into the gap.
+        let built = builds(&mut list);
+        assert!(built > 1 && built < 2 * STEPS / 3, "{more:?}: built {built} times");
+        // Some after the first step, of which a list of its start has all, and more later.
+        assert!(removed == want && removed[0] > 0 && removed[2] > removed[0], "{more:?}: {removed:?}, {want:?}");
+        let off = state(&mut near).iter().zip(&state(&mut list)).map(|(a, b)| a.0.distance(b.0)).fold(0.0, f64::max);
+        // As above.
+        assert!(off < 2e-5 && off > 0.0, "{more:?}: {off:e}");
+        agrees(&mut list, &setup, "drain");
+    }
 }
 
 /// The faster one, as measured; and a pressure solve has none.
