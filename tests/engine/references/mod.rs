@@ -73,10 +73,10 @@ fn every_law_alone() {
             let pairs = overs.contains(&forces::Over::Pairs);
             let plain = [("as it is", gpu(&shared, 1).machine())].to_vec();
             let all = if pairs { machines::machines(&shared) } else { plain };
-            let machines = all.len();
+            let count_of_machines = all.len();
             for (place, (machine_name, machine)) in all.into_iter().enumerate() {
                 // How a visit divides particles is the same for every law: one law has all sizes on all machines, the others on one of them, by turns.
-                let whole = entry.name == "gravity" || !pairs || place == turn % machines;
+                let whole = entry.name == "gravity" || !pairs || place == turn % count_of_machines;
                 let sizes = if whole { &SIZES[..] } else { &[1, 65] };
                 // Three blocks and a half: layers of unequal length; or one more than 65 536, if none may be next to a line.
                 for count in sizes.iter().copied().chain([if meet { 333 } else { 65_537 }]) {
