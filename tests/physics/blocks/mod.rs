@@ -104,6 +104,17 @@ fn state<B: Backend>(simulation: &mut Simulation<B>) -> State {
     })
 }
 
+/// Steps of which a uniform acceleration of 10 puts all particles on a level of 0 to 4: √(2 η ε / 10) is 1.5 of dt / 2ˡ, below that of the level before.
+fn on_level(level: i32, dt: f64) -> BlockSteps {
+    steps(4, 10.0 * (0.75 * dt * 2.0 * 0.5_f64.powi(level)).powi(2) / (2.0 * ETA))
+}
+
+fn assert_on_level<B: Backend>(simulation: &mut Simulation<B>, level: i32, of: &str) {
+    let mut want = vec![0; 5];
+    want[usize::try_from(level).expect("a level")] = u64::from(simulation.count());
+    assert_eq!(levels(simulation).particles, want, "{of}");
+}
+
 /// A strong uniform field puts all on one level: then the method is leapfrog with that step, to the bit, whatever else there is.
 #[test]
 fn on_one_level_it_is_leapfrog_to_the_bit() {
@@ -121,16 +132,11 @@ fn on_one_level_it_is_leapfrog_to_the_bit() {
                 ]
             };
             let state = support::cloud(700, seed);
-            // √(2 η ε / 10) is 0.75 of dt / 2ˡ, above the next shorter step.
-            let length = 10.0 * (0.75 * dt * 2.0 * 0.5_f64.powi(level)).powi(2) / (2.0 * ETA);
-            let blocks = BlockSteps { shared: is_shared, ..steps(4, length) };
+            let blocks = BlockSteps { shared: is_shared, ..on_level(level, dt) };
             let mut block = on_gpu(&shared, &setup(state.clone(), forces(), dt, blocks));
             block.step(3).expect("steps");
             let got = bytes(&mut block);
-            let levels = levels(&mut block);
-            let mut want = vec![0; 5];
-            want[usize::try_from(level).expect("a level")] = 700;
-            assert_eq!(levels.particles, want, "{over}");
+            assert_on_level(&mut block, level, over);
             let parts = 1 << level;
             let even = Setup::new(state, forces(), dt / f64::from(parts));
             let mut even = on_gpu(&shared, &even);
@@ -159,13 +165,10 @@ fn on_one_level_it_is_leapfrog_to_the_bit_where_space_expands() {
             vec![force("gravity", &settings), force("uniform", &[("acceleration", vector(0.0, 0.0, -10.0))])]
         };
         let state = support::cloud(700, seed);
-        let length = 10.0 * (0.75 * dt * 2.0 * 0.5_f64.powi(level)).powi(2) / (2.0 * ETA);
-        let block = setup(state.clone(), forces(1.7), dt, steps(4, length));
+        let block = setup(state.clone(), forces(1.7), dt, on_level(level, dt));
         let mut block = on_gpu(&shared, &Setup { bounds, ..block });
         block.step(3).expect("steps");
-        let mut want = vec![0; 5];
-        want[usize::try_from(level).expect("a level")] = 700;
-        assert_eq!(levels(&mut block).particles, want, "{over}");
+        assert_on_level(&mut block, level, over);
         let parts = 1 << level;
         let even = |hubble| {
             let even = Setup { bounds, ..Setup::new(state.clone(), forces(hubble), dt / f64::from(parts)) };
