@@ -76,8 +76,9 @@ pub enum Error {
     },
     /// Forces require a step that is shorter than the minimum. Remedy: a start with weaker forces, or a smaller minimum.
     #[error(
-        "step {step} would have to be {wanted:.3e} long, shorter than dt_min = {least:.3e}, because of the {reason} of {particle}: look \
-         for particles that start too close to each other or to a wall, or set a smaller dt_min"
+        "step {step} would have to be {wanted:.3e} long, shorter than dt_min = {least:.3e}, because of the {reason} of {particle}: {}, or \
+         set a smaller dt_min",
+        longer_steps(reason)
     )]
     TooShort {
         /// The step, counted from 0.
@@ -190,6 +191,15 @@ pub enum Error {
         /// The reason.
         message: String,
     },
+}
+
+/// What allows longer steps where they are too short for a reason.
+fn longer_steps(reason: &str) -> &'static str {
+    if reason == crate::kernel::Reason::Error.name() {
+        "look for bodies that start too close to each other; if precision is \"single\", its rounding errors count: choose \"double_single\""
+    } else {
+        "look for particles that start too close to each other or to a wall"
+    }
 }
 
 impl Error {

@@ -4,7 +4,7 @@
 // 0 and 1 the time in longest steps and ticks; 2 the ticks of this step, 3 those that only limits shorten, 4 reason, 5 particle;
 // 6 to 9 the alarm: the step, reason, particle, how many; 10 and 11 the shortest and the longest; from 12 on steps by their reasons
 @group(1) @binding(0) var<storage, read_write> step_clock: array<u32>;
-@group(1) @binding(1) var<storage, read> largest_criterion: array<vec4f>; // how many steps acceleration, signal and speed want
+@group(1) @binding(1) var<storage, read> largest_criterion: array<vec4f>; // how many steps acceleration, signal, speed and error want
 @group(1) @binding(2) var<storage, read> step_clock_stop: array<u32>;
 
 override UNIT: f32 = 1.0;        // the longest step
@@ -15,6 +15,7 @@ const DIGITS: u32 = 11u;
 const NONE: u32 = 4294967295u;
 const GROWTH: u32 = 5u;
 const STOP: u32 = 6u;
+const ERROR: u32 = 7u;
 const REASONS: u32 = 12u;
 
 @compute @workgroup_size(1)
@@ -27,6 +28,10 @@ fn adaptive_dt() {
             rate = wants[k];
             reason = k + 1u;
         }
+    }
+    if largest_criterion[0].w > rate {
+        rate = largest_criterion[0].w;
+        reason = ERROR;
     }
     // Twelve digits tell lengths apart: what a division rounds, no device and no reference sees.
     var ticks = u32(TICKS / rate);

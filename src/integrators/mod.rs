@@ -58,6 +58,14 @@ pub trait Integrator: Copied + Send + Sync {
                 .then_some("their time step limits are those of explicit methods, and the integrator is implicit"),
         }
     }
+    /// Whether it estimates its own error, which limits adaptive steps in place of forces.
+    fn estimates_error(&self) -> bool {
+        self.wrapped().is_some_and(Integrator::estimates_error)
+    }
+    /// Whether it advances columns that components declare with a rate, beside positions and velocities.
+    fn advances_columns(&self) -> bool {
+        self.wrapped().is_none_or(Integrator::advances_columns)
+    }
     /// The limits of its time step, where steps are adaptive.
     fn adaptive_step(&self) -> Option<AdaptiveStep> {
         self.wrapped().and_then(Integrator::adaptive_step)
@@ -160,6 +168,7 @@ register! {
     rk4: RungeKutta4, "order 4 (Runge-Kutta), four evaluations: accurate over short times";
     forest_ruth: ForestRuth, "order 4, symplectic, three evaluations";
     pefrl: Pefrl, "order 4, symplectic, four evaluations: the most accurate over long times";
+    gauss_radau: GaussRadau(KEYS), "order 15, some 30 evaluations per step, adaptive by its own error: few bodies, close encounters (Everhart 1985; Rein & Spiegel 2015)";
     linear_backward_euler: LinearBackwardEuler, "order 1, for stiff springs: damped at any step, by one linear solve (Baraff & Witkin 1998)";
     backward_euler: BackwardEuler, "order 1, for stiff springs: damped at any step, its equations solved by Newton's method";
     linear_trapezoid: LinearTrapezoid, "order 2, for stiff springs: conserves the energy of linear springs, by one linear solve";

@@ -4,6 +4,7 @@ mod block;
 mod length;
 mod pairs;
 mod plans;
+mod radau;
 mod search;
 mod solve;
 
@@ -216,6 +217,10 @@ impl<'a> Step<'a> {
         self.finish_pairs(true, weight);
         self.add(runge_kutta::finish(self.problem.capacity, weight));
         self.finish_pairs(false, weight);
+        self.arrive();
+    }
+    /// Constrains velocities and positions at the end of a step that was made in one.
+    fn arrive(&mut self) {
         self.limit();
         self.enclose();
         self.drifted = 1.0;

@@ -19,7 +19,7 @@ pub struct AdaptiveStep {
 /// Ticks in the longest step.
 pub const TICKS: u32 = 1 << 24;
 /// The shortest step, as a part of the longest, at least: ticks must distinguish steps.
-const LEAST_PART: f64 = 1e-6;
+pub const LEAST_PART: f64 = 1e-6;
 
 /// The clock, word by word: 0 and 1: the time in longest steps and ticks; 2: the ticks of the current step, 0 where the run has stopped; 3:
 /// those of the last step that was limited only by forces and growth; 4: the reason, a [`Reason`]; 5: the limiting particle, the lowest id
@@ -53,12 +53,22 @@ pub enum Reason {
     Growth,
     /// The run stops there.
     Stop,
+    /// The integrator's estimate of its own error.
+    Error,
 }
 
 impl Reason {
     /// All reasons, in the order of their numbers on a device.
-    pub const ALL: [Self; 7] =
-        [Self::Longest, Self::Acceleration, Self::Signal, Self::Viscosity, Self::Speed, Self::Growth, Self::Stop];
+    pub const ALL: [Self; 8] = [
+        Self::Longest,
+        Self::Acceleration,
+        Self::Signal,
+        Self::Viscosity,
+        Self::Speed,
+        Self::Growth,
+        Self::Stop,
+        Self::Error,
+    ];
     /// The reason of a number.
     #[must_use]
     pub fn of(number: u32) -> Self {
@@ -75,6 +85,7 @@ impl Reason {
             Self::Speed => "speed",
             Self::Growth => "growth",
             Self::Stop => "stop",
+            Self::Error => "error",
         }
     }
 }

@@ -242,6 +242,11 @@ impl Column {
     pub fn within(self, buffer: impl Into<Name>, component: u8) -> Self {
         Self { place: Place { buffer: buffer.into(), component }, ..self }
     }
+    /// Whether integrators advance it beside positions and velocities.
+    #[must_use]
+    pub fn is_advanced(&self) -> bool {
+        self.rate.is_some() && !["position", "velocity"].contains(&self.name.as_ref())
+    }
     /// Whether it shares the elements of a buffer with another column.
     #[must_use]
     pub fn is_packed(&self) -> bool {

@@ -30,8 +30,8 @@ mod unused_word;
 mod world;
 
 pub use adaptive_step::{
-    AdaptiveStep, LARGEST_CRITERION, Reason, STEP_CLOCK, STEP_CLOCK_WORDS, STEP_CRITERIA, STOP, TICKS, split, ticks,
-    time,
+    AdaptiveStep, LARGEST_CRITERION, LEAST_PART, Reason, STEP_CLOCK, STEP_CLOCK_WORDS, STEP_CRITERIA, STOP, TICKS,
+    split, ticks, time,
 };
 pub use backend::{Arrival, Backend, Machine, Mobile};
 pub use block_steps::{BLOCK_CLOCK, BLOCK_CLOCK_START, BLOCK_CLOCK_WORDS, BlockSteps, DUE, MOST_LEVELS, STEP_LEVEL};

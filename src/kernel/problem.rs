@@ -58,6 +58,8 @@ pub struct Problem {
     pub solver: Solver,
     /// The adaptive time step; `None`: all steps have the same length.
     pub adaptive_step: Option<AdaptiveStep>,
+    /// Whether adaptive steps are limited by the error that the integrator estimates, and not by forces.
+    pub estimates_error: bool,
     /// The block time steps; `None`: all particles have the same steps.
     pub block_steps: Option<BlockSteps>,
     /// The precision of positions and velocities.
@@ -127,6 +129,7 @@ impl Problem {
             reached: 1.0,
             solver: Solver::default(),
             adaptive_step: None,
+            estimates_error: false,
             block_steps: None,
             precision: Precision::Single,
             columns: Arc::default(),

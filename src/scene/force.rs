@@ -4,6 +4,7 @@ use std::path::Path;
 
 use crate::error::Error;
 use crate::forces::{self, Component, Custom, Over};
+use crate::integrators::Integrator;
 use crate::kernel::Bounds;
 use crate::links::too_many_bonds;
 use crate::motion::Motion;
@@ -340,14 +341,37 @@ impl Chosen {
     }
 }
 
+/// Refuses columns that an integrator does not advance.
+pub(super) fn advanced(forces: &[Box<dyn Component>], integrator: &str, place: &Place, report: &mut Report) {
+    for force in forces {
+        if let Some(column) = force.columns().iter().find(|column| column.is_advanced()) {
+            let fault = format!(
+                "{integrator} advances positions and velocities alone, and {} has `{}`",
+                force.name(),
+                column.name
+            );
+            report.push(Fault::at(place, fault).label("choose \"rk4\" or \"leapfrog\""));
+        }
+    }
+}
+
 /// Refuses adaptive steps where no force limits them, or a force does not allow them.
-pub(super) fn adapted(forces: &[Box<dyn Component>], place: &Place, report: &mut Report) {
+pub(super) fn adapted(forces: &[Box<dyn Component>], integrator: &dyn Integrator, place: &Place, report: &mut Report) {
     if let Some(why) = forces.iter().find_map(|force| force.properties().fixed_step) {
         report.push(Fault::at(place, "steps cannot be adaptive").label(format!("{why}: leave this out")));
     }
-    if !forces.iter().any(|force| force.properties().limits_steps) {
-        let fault = Fault::at(place, "no force limits the time step, so it cannot be adaptive");
-        report.push(fault.label("leave this out, or add a fluid"));
+    let limits = forces.iter().find(|force| force.properties().limits_steps);
+    match (limits, integrator.estimates_error()) {
+        (None, false) => {
+            let fault = Fault::at(place, "no force limits the time step, so it cannot be adaptive");
+            report.push(fault.label("leave this out, add a fluid, or choose integrator = \"gauss_radau\""));
+        }
+        (Some(force), true) => {
+            let (name, its) = (force.name(), integrator.name());
+            let fault = format!("{its} chooses its steps by its own error, and {name} limits them too");
+            report.push(Fault::at(place, fault).label("choose integrator = \"leapfrog\", or leave this out"));
+        }
+        _ => {}
     }
 }
 

@@ -360,8 +360,13 @@ fn read(sections: &[(&'static str, Table<'_>)], files: &Files, options: &Options
     {
         report.push(Fault::at(first.place, why.to_string()));
     }
+    if let (Some(entry), false) =
+        (one("simulation").and_then(|table| table.get("integrator")), integrator.advances_columns())
+    {
+        force::advanced(&forces, integrator.name(), &entry.place, report);
+    }
     if let Some((_, place)) = &simulation.adaptive_step {
-        force::adapted(&forces, place, report);
+        force::adapted(&forces, integrator.as_ref(), place, report);
     }
     if let Some((steps, place)) = &simulation.block_steps {
         // What is wrong with its numbers is known.

@@ -2,7 +2,7 @@
 
 use crate::integrators::{self, BlockLeapfrog, INTEGRATORS, Integrator};
 use crate::interactions::gravity;
-use crate::kernel::{AdaptiveStep, BlockSteps, Column, Precision};
+use crate::kernel::{AdaptiveStep, BlockSteps, Column, LEAST_PART, Precision};
 use crate::settings::{Key, Kind, Settings, Value};
 
 use super::report::{Fault, Place, Report};
@@ -27,7 +27,7 @@ pub(super) const KEYS: &[Key] = &[
         "dt_min",
         Kind::NotNegative,
         Value::Number(0.0),
-        "the shortest adaptive step, below which a run ends; 0 for a thousandth of dt [time]",
+        "the shortest adaptive step, below which a run ends; 0 for a thousandth of dt, with gauss_radau a millionth [time]",
     ),
     Key::new(
         "dt_before",
@@ -39,7 +39,7 @@ pub(super) const KEYS: &[Key] = &[
         "cfl",
         Kind::Fraction,
         Value::Number(0.25),
-        "the Courant number of adaptive steps, a factor of every limit",
+        "the Courant number of adaptive steps, a factor of every limit of forces",
     ),
     Key::new(
         "block_levels",
@@ -233,11 +233,20 @@ fn adaptive_step(
             let fault = Fault::at(&entry.place, format!("`{}` is for adaptive steps, and dt is fixed", entry.key));
             report.push(fault.label("remove it, or set adaptive = true"));
         }
+        if let Some(entry) = table.get("tolerance").filter(|_| of.made().estimates_error()) {
+            let fault = Fault::at(&entry.place, "`tolerance` is for adaptive steps, and dt is fixed");
+            report.push(fault.label("remove it, or set adaptive = true"));
+        }
         return None;
     };
+    let own = of.made().estimates_error();
+    if let Some(entry) = table.get("cfl").filter(|_| own) {
+        let fault = format!("`cfl` is for the limits of forces, and {} estimates its error", of.integrator.name);
+        report.push(Fault::at(&entry.place, fault).label("remove it; `tolerance` is what this integrator has"));
+    }
     let some = |key| Some(settings.number(key)).filter(|x| *x > 0.0);
     let adaptive_step = AdaptiveStep {
-        least: some("dt_min").unwrap_or(of.dt / 1000.0),
+        least: some("dt_min").unwrap_or(of.dt * if own { LEAST_PART } else { 1e-3 }),
         courant: settings.number("cfl"),
         before: some("dt_before"),
     };
@@ -339,7 +348,9 @@ impl Simulation {
                 out.line("adaptive", "true");
                 out.number("dt_min", adaptive_step.least);
                 adaptive_step.before.into_iter().for_each(|before| out.number("dt_before", before));
-                out.number("cfl", adaptive_step.courant);
+                if !self.made().estimates_error() {
+                    out.number("cfl", adaptive_step.courant);
+                }
             }
             None => out.line("steps", &self.steps.to_string()),
         }
@@ -352,6 +363,9 @@ impl Simulation {
         }
         out.text("precision", self.precision.name());
         out.text("integrator", self.integrator.name);
-        out.settings(self.integrator.keys, &self.integrator_settings);
+        // What is for adaptive steps alone would be refused without them.
+        if self.adaptive_step.is_some() || !self.made().estimates_error() {
+            out.settings(self.integrator.keys, &self.integrator_settings);
+        }
     }
 }

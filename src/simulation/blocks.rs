@@ -3,9 +3,7 @@
 use super::{Setup, Simulation};
 use crate::error::Error;
 use crate::forces::{Component, Over};
-use crate::kernel::{
-    Array, BLOCK_CLOCK, BLOCK_CLOCK_START, BLOCK_CLOCK_WORDS, Backend, BlockSteps, Column, STEP_LEVEL,
-};
+use crate::kernel::{Array, BLOCK_CLOCK, BLOCK_CLOCK_START, BLOCK_CLOCK_WORDS, Backend, BlockSteps, STEP_LEVEL};
 use crate::motion::Hold;
 use crate::state::State;
 
@@ -95,8 +93,6 @@ pub fn refuses_blocks(given: BlockSteps, state: &State, forces: &[Box<dyn Compon
     if state.held.iter().any(|held| held.by != Hold::Fixed) {
         refuse("particles are moved along paths here".to_owned());
     }
-    let advanced =
-        |column: &&Column| column.rate.is_some() && !["position", "velocity"].contains(&column.name.as_ref());
     for force in forces {
         let (name, properties) = (force.name(), force.properties());
         let columns = force.columns();
@@ -108,7 +104,7 @@ pub fn refuses_blocks(given: BlockSteps, state: &State, forces: &[Box<dyn Compon
             || properties.barostat.is_some()
         {
             refuse(format!("{name} changes positions or velocities other than by forces"));
-        } else if let Some(column) = columns.iter().find(advanced) {
+        } else if let Some(column) = columns.iter().find(|column| column.is_advanced()) {
             refuse(format!("all steps advance the column `{}` of {name} by its rate", column.name));
         } else if force.laws().iter().any(|law| matches!(law.over, Over::List { .. })) {
             refuse(format!("{name} is over a neighbour list, which is kept over steps"));
@@ -119,7 +115,7 @@ pub fn refuses_blocks(given: BlockSteps, state: &State, forces: &[Box<dyn Compon
             refuse(format!("{name} reads `{word}`, which is that of a part of the step"));
         }
     }
-    for column in state.declared().filter(advanced) {
+    for column in state.declared().filter(|column| column.is_advanced()) {
         refuse(format!("all steps advance the column `{}` by its rate", column.name));
     }
     all

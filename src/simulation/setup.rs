@@ -190,7 +190,8 @@ impl Setup {
         }
         let rows = self.state.len().saturating_sub(self.state.free_rows() as usize);
         let problem = Problem::new(self.check()?, machine).at(self.state.position(), self.bounds);
-        let problem = Problem { extent: self.extent(), ..problem }
+        let estimates_error = self.integrator.estimates_error();
+        let problem = Problem { extent: self.extent(), estimates_error, ..problem }
             .with_free(self.free())
             .of_species(&self.state.species()[..rows])
             .tied(&self.state.all_links(), &self.state.held)

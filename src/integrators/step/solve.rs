@@ -113,7 +113,7 @@ impl Step<'_> {
         };
         linear(self, true);
         if newton {
-            self.repeat(solver.solves - 1, "settled", |step| {
+            self.repeat(solver.solves - 1, STATE, "settled", |step| {
                 step.again(explicit);
                 linear(step, false);
             });
@@ -166,13 +166,19 @@ impl Step<'_> {
             step.add(iterate::advance(system, turned, limit, part));
         };
         half(self, true);
-        self.repeat(limit.div_ceil(2), "code", |step| {
+        self.repeat(limit.div_ceil(2), STATE, "code", |step| {
             half(step, false);
             half(step, true);
         });
     }
-    /// A loop that runs until a member of the solve's state is set.
-    fn repeat(&mut self, most: u32, until: &'static str, write: impl FnOnce(&mut Self)) {
+    /// A loop that runs until a member of a state is set.
+    pub(super) fn repeat(
+        &mut self,
+        most: u32,
+        state: &'static str,
+        until: &'static str,
+        write: impl FnOnce(&mut Self),
+    ) {
         if most == 0 {
             return;
         }
@@ -180,7 +186,7 @@ impl Step<'_> {
         let before = std::mem::take(&mut self.plan);
         write(self);
         let body = std::mem::replace(&mut self.plan, before);
-        if let Err(error) = self.plan.repeat(most, STATE, 0, until, body) {
+        if let Err(error) = self.plan.repeat(most, state, 0, until, body) {
             self.error.get_or_insert(error);
         }
     }

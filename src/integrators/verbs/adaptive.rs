@@ -44,11 +44,17 @@ pub fn next_dt(adaptive_step: &AdaptiveStep, viscous: f64, problem: &Problem) ->
         let (Some(largest_criterion), [stop_whole, stop_rest]) = (largest_criterion.first(), &stop[..]) else {
             return Ok(());
         };
-        let wants = [largest_criterion.x as f32, largest_criterion.y as f32, viscous, largest_criterion.z as f32];
+        let wants = [
+            (largest_criterion.x as f32, Reason::Acceleration),
+            (largest_criterion.y as f32, Reason::Signal),
+            (viscous, Reason::Viscosity),
+            (largest_criterion.z as f32, Reason::Speed),
+            (largest_criterion.w as f32, Reason::Error),
+        ];
         let (mut rate, mut reason) = (1.0f32, Reason::Longest as u32);
-        for (want, number) in wants.into_iter().zip(1..) {
+        for (want, why) in wants {
             if want > rate {
-                (rate, reason) = (want, number);
+                (rate, reason) = (want, why as u32);
             }
         }
         let mut step = (TICKS as f32 / rate) as u32;

@@ -13,6 +13,7 @@ pub mod kick;
 pub mod kick_drift;
 pub mod life;
 pub mod pairs;
+pub mod radau;
 pub mod runge_kutta;
 pub mod solve;
 pub mod tick;
