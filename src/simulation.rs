@@ -37,12 +37,12 @@ pub use readback::Readback;
 pub use setup::{Plans, Setup};
 #[doc(hidden)]
 pub use skin::ListReport;
-pub use solves::{Outcome, Solves};
+pub use solves::{Outcome, Solves, Unsettled};
 
 use crate::cpu::threads;
 use crate::error::Error;
 use crate::gpu::Gpu;
-use crate::integrators::SOLVE_REPORT;
+use crate::integrators::{SOLVE_REPORT, UNSETTLED_STEPS};
 use crate::kernel::{AdaptiveStep, Array, Backend, Element, Field, HOME, ListShape, POSITION, Plan, Problem, VELOCITY};
 use crate::sph::DFSPH_REPORT;
 use crate::state::State;
@@ -77,7 +77,7 @@ pub struct Simulation<B: Backend> {
     /// The marks by which alarms name users' laws.
     marks: alarm::Marks,
     /// Whether a step keeps a report of its implicit solves, and one of its pressure solves.
-    reports: [bool; 2],
+    reports: [bool; 3],
     /// The setup without its state, from which plans are rewritten for more rows; and the number of times this was done.
     setup: Setup,
     generation: u32,
@@ -138,8 +138,8 @@ impl<B: Backend> Simulation<B> {
         setup.weighs(&problem)?;
         let plans = setup.plans_of(&problem)?;
         let (plan, marks, largest) = (plans.step.to_string(), alarm::marks(&plans), setup.largest(&BTreeMap::new()));
-        let reports =
-            [SOLVE_REPORT, DFSPH_REPORT].map(|name| plans.step.kernels.iter().any(|kernel| kernel.names(name)));
+        let reports = [SOLVE_REPORT, DFSPH_REPORT, UNSETTLED_STEPS.name]
+            .map(|name| plans.step.kernels.iter().any(|kernel| kernel.names(name)));
         let (list, fields) = (plans.list, Fields::of(&plans, count));
         let repeat = lists::Repeat::of(&plans, list);
         let start = backend.compile(&plans.start)?;

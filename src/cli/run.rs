@@ -6,7 +6,7 @@ use motes::kernel::Backend;
 use motes::run::Folder;
 use motes::run::{Checkpoint, End, Found, Options, Progress as _, Run};
 use motes::scene::{self, Every, Scene};
-use motes::simulation::{ListReport, PressureSolves, Solves};
+use motes::simulation::{ListReport, PressureSolves, Solves, Unsettled};
 use motes::stability::Verdict;
 use motes::{Cpu, Error, Setup, Simulation};
 use serde_json::json;
@@ -151,9 +151,10 @@ async fn start(
         }
     };
     let result = match driven {
-        Ok(Driven { end, solves, pressures, list }) => {
+        Ok(Driven { end, solves, pressures, unsettled, list }) => {
             let concluded = conclude::conclude(&run, end, &conserved, (&progress, device));
             solves::tell(&progress, solves, pressures);
+            solves::tell_unsettled(&progress, unsettled);
             neighbors::tell(&progress, list);
             concluded
         }
@@ -171,6 +172,7 @@ async fn start(
 struct Driven {
     end: End,
     solves: Option<Solves>,
+    unsettled: Option<Unsettled>,
     pressures: Option<[PressureSolves; 2]>,
     list: Option<ListReport>,
 }
@@ -182,7 +184,8 @@ async fn drive<B: Backend>(
 ) -> Result<Driven, Error> {
     let end = run.drive(simulation, progress).await?;
     let (solves, pressures) = (simulation.solves().await?, simulation.pressure_solves().await?);
-    Ok(Driven { end, solves, pressures, list: simulation.neighbor_list() })
+    let unsettled = simulation.unsettled().await?;
+    Ok(Driven { end, solves, pressures, unsettled, list: simulation.neighbor_list() })
 }
 
 /// Prints the scene, its number of particles and its device.

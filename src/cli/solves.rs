@@ -1,6 +1,6 @@
 //! The report on the implicit solves of a run.
 
-use motes::simulation::{Outcome, PressureSolves, Solves};
+use motes::simulation::{Outcome, PressureSolves, Solves, Unsettled};
 use serde_json::json;
 
 use super::progress::Progress;
@@ -27,6 +27,15 @@ pub fn tell(progress: &Progress, solves: Option<Solves>, pressures: Option<[Pres
         };
         progress.say(&format!("warning: {failures} of {all} solves did not converge, the first in step {step}: {why}"));
     }
+}
+
+/// Reports steps along which accelerations did not settle.
+pub fn tell_unsettled(progress: &Progress, unsettled: Option<Unsettled>) {
+    let Some(Unsettled { steps, first }) = unsettled else { return };
+    progress.event("unsettled", json!({ "steps": steps, "first": first }));
+    progress.say(&format!(
+        "warning: the accelerations along {steps} steps did not settle, the first of them step {first}: choose a smaller dt, or adaptive = true"
+    ));
 }
 
 /// Reports the pressure solves, and a remedy if some did not converge.

@@ -7,7 +7,7 @@
 //! g₇ settles; the first guess is the polynomial of the step before it. Two integrals give the end of the step. In adaptive steps the length is
 //! such that |g₇| / |a| is ε, each the largest of any particle; a step that is four times too long is tried again.
 //!
-//! Differences from IAS15: divided differences are kept in place of powers, prediction is the polynomial alone, ε is 1e-4 where it has 1e-9
+//! Differences from IAS15: divided differences are kept in place of powers, prediction is the polynomial alone, ε is 1e-5 where it has 1e-9
 //! (the last term enters velocities by 1 / 4032, and the error of the method is that of the next ones), and what rounding of accelerations
 //! makes of g₇ is no error.
 
@@ -20,7 +20,7 @@ use crate::settings::{Key, Kind as Value, Settings, Value as Default};
 pub const KEYS: &[Key] = &[Key::new(
     "tolerance",
     Value::Fraction,
-    Default::Number(1e-4),
+    Default::Number(1e-5),
     "ε of adaptive steps by gauss_radau: the last coefficient of the accelerations over the largest one",
 )];
 

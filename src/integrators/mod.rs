@@ -14,6 +14,8 @@ pub(crate) use step::kept_rates;
 #[doc(hidden)]
 pub use step::{Explicit, Form, Implicit, Step, implicit};
 #[doc(hidden)]
+pub use verbs::radau::UNSETTLED_STEPS;
+#[doc(hidden)]
 pub use verbs::solve::STATE as SOLVE_STATE;
 #[doc(hidden)]
 pub use verbs::solve::report::{NAME as SOLVE_REPORT, WORDS as SOLVE_REPORT_WORDS};

@@ -2,7 +2,7 @@
 
 use super::Simulation;
 use crate::error::Error;
-use crate::integrators::{SOLVE_REPORT, SOLVE_REPORT_WORDS, SOLVE_STATE};
+use crate::integrators::{SOLVE_REPORT, SOLVE_REPORT_WORDS, SOLVE_STATE, UNSETTLED_STEPS};
 use crate::kernel::{Array, Backend};
 
 /// The outcome of a solve.
@@ -35,7 +35,30 @@ pub struct Solves {
     pub residual: f64,
 }
 
+/// Steps of fixed length along which accelerations did not settle, see [`GaussRadau`](crate::integrators::GaussRadau).
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Unsettled {
+    /// The number of such steps.
+    pub steps: u32,
+    /// The first one, counted from 0.
+    pub first: u32,
+}
+
 impl<B: Backend> Simulation<B> {
+    /// Steps along which accelerations did not settle so far; `None` where there are none.
+    ///
+    /// # Errors
+    /// Errors of reading.
+    pub async fn unsettled(&mut self) -> Result<Option<Unsettled>, Error> {
+        if !self.reports[2] {
+            return Ok(None);
+        }
+        self.settle().await?;
+        let words = self.backend.read(UNSETTLED_STEPS.name, &Array::Uint(Vec::new()), 2).await?;
+        let Array::Uint(words) = words else { return Ok(None) };
+        let [steps, first] = words[..] else { return Ok(None) };
+        Ok((steps > 0).then_some(Unsettled { steps, first }))
+    }
     /// Statistics of the implicit solves so far; `None` where there are no iterative solves.
     ///
     /// # Errors

@@ -31,6 +31,7 @@ mod open;
 mod pairs;
 mod precision;
 mod primitives;
+mod radau;
 mod repeat;
 mod rods;
 mod sizes;
@@ -221,6 +222,7 @@ fn every_mutant_is_noticed() {
         adaptive::EQUIVALENT,
         blocks::EQUIVALENT,
         precision::EQUIVALENT,
+        radau::EQUIVALENT,
         two_words::EQUIVALENT,
         fluids::EQUIVALENT,
         pairs::EQUIVALENT,

@@ -264,42 +264,52 @@ pub fn fill(simulation: &mut Simulation<Gpu>, plan: &Plan) {
 pub fn all(shared: &Shared) -> Vec<Stage> {
     let few = |limits: &mut wgpu::Limits| limits.max_compute_workgroups_per_dimension = 4;
     let device = pollster::block_on(support::limited(shared, few));
+    let groups: [(&str, &dyn Fn(&mut Vec<Stage>)); 36] = [
+        ("integrators", &|all| integrators(&device, all)),
+        ("repeat", &|all| crate::repeat::all(&device, all)),
+        ("implicit", &|all| crate::implicit::all(&device, all)),
+        ("precision", &|all| crate::precision::all(&device, all)),
+        ("radau", &|all| crate::radau::all(&device, all)),
+        ("two_words", &|all| crate::two_words::all(shared, &device, all)),
+        ("alarms_watches", &|all| alarms::watches(&device, all)),
+        ("alarms_runaways", &|all| alarms::runaways(&device, all)),
+        ("boundary_boundary", &|all| crate::boundary::boundary(&device, all)),
+        ("laws", &|all| laws::all(&device, all)),
+        ("laws_firsts", &|all| laws::firsts(&device, all)),
+        ("laws_softenings", &|all| laws::softenings(&device, all)),
+        ("laws_corners", &|all| laws::corners(&device, all)),
+        ("laws_overlong", &|all| laws::overlong(&device, all)),
+        ("laws_virials", &|all| laws::virials(&device, all)),
+        ("columns", &|all| columns::all(&device, all)),
+        ("matter", &|all| crate::matter::all(shared, &device, all)),
+        ("crowds", &|all| crate::crowds::all(&device, all)),
+        ("laws_planes", &|all| laws::planes(&device, all)),
+        ("held", &|all| crate::held::all(&device, all)),
+        ("pairs", &|all| crate::pairs::all(&device, all)),
+        ("adaptive", &|all| crate::adaptive::all(&device, all)),
+        ("adaptive_stages", &|all| crate::adaptive_stages::all(shared, &device, all)),
+        ("blocks", &|all| crate::blocks::all(shared, &device, all)),
+        ("births", &|all| crate::births::all(shared, &device, all)),
+        ("rods_rods", &|all| crate::rods::rods(&device, all)),
+        ("strained", &|all| crate::strained::all(&device, all)),
+        ("dfsph", &|all| crate::dfsph::all(shared, &device, all)),
+        ("ewald", &|all| crate::ewald::all(shared, &device, all)),
+        ("fluids", &|all| crate::fluids::all(shared, &device, all)),
+        ("pairs", &|all| pairs(shared, &device, all)),
+        ("neighbors", &|all| crate::neighbors::all(shared, &device, all)),
+        ("lists", &|all| crate::lists::all(shared, all)),
+        ("primitives", &|all| primitives::all(&device, all)),
+        ("trees", &|all| crate::trees::all(shared, all)),
+        ("walks", &|all| crate::walks::all(shared, all)),
+    ];
+    // `MUTANTS_ON=precision,adaptive` sets up the stages of such groups alone: to look at a few files, since all take a minute or more.
+    let wanted = std::env::var("MUTANTS_ON").unwrap_or_default();
     let mut stages = Vec::new();
-    integrators(&device, &mut stages);
-    crate::repeat::all(&device, &mut stages);
-    crate::implicit::all(&device, &mut stages);
-    crate::precision::all(&device, &mut stages);
-    crate::two_words::all(shared, &device, &mut stages);
-    alarms::watches(&device, &mut stages);
-    alarms::runaways(&device, &mut stages);
-    crate::boundary::boundary(&device, &mut stages);
-    laws::all(&device, &mut stages);
-    laws::firsts(&device, &mut stages);
-    laws::softenings(&device, &mut stages);
-    laws::corners(&device, &mut stages);
-    laws::overlong(&device, &mut stages);
-    laws::virials(&device, &mut stages);
-    columns::all(&device, &mut stages);
-    crate::matter::all(shared, &device, &mut stages);
-    crate::crowds::all(&device, &mut stages);
-    laws::planes(&device, &mut stages);
-    crate::held::all(&device, &mut stages);
-    crate::pairs::all(&device, &mut stages);
-    crate::adaptive::all(&device, &mut stages);
-    crate::adaptive_stages::all(shared, &device, &mut stages);
-    crate::blocks::all(shared, &device, &mut stages);
-    crate::births::all(shared, &device, &mut stages);
-    crate::rods::rods(&device, &mut stages);
-    crate::strained::all(&device, &mut stages);
-    crate::dfsph::all(shared, &device, &mut stages);
-    crate::ewald::all(shared, &device, &mut stages);
-    crate::fluids::all(shared, &device, &mut stages);
-    pairs(shared, &device, &mut stages);
-    crate::neighbors::all(shared, &device, &mut stages);
-    crate::lists::all(shared, &mut stages);
-    primitives::all(&device, &mut stages);
-    crate::trees::all(shared, &mut stages);
-    crate::walks::all(shared, &mut stages);
+    for (name, group) in groups {
+        if wanted.is_empty() || wanted.split(',').any(|part| name.contains(part)) {
+            group(&mut stages);
+        }
+    }
     stages
 }
 

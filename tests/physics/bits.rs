@@ -102,7 +102,9 @@ fn the_same_in_many_submissions() {
         let submissions = cut.backend().submissions() - before;
         assert!(submissions > 2 * u64::from(STEPS), "{}: {submissions} submissions are not many", entry.name);
         assert!(bytes(&mut cut) == want, "{}: {submissions} submissions differ from one", entry.name);
-        assert!(whole.backend().submissions() < 5, "and one is one");
+        // Twelve iterations of seven evaluations are many dispatches.
+        let few = if entry.by_default().estimates_error() { before } else { 5 };
+        assert!(whole.backend().submissions() < few, "and one is one");
     }
 }
 

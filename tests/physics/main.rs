@@ -24,6 +24,7 @@ mod pairs;
 mod pins;
 mod precision;
 mod questions;
+mod radau;
 mod rods;
 mod runaway;
 mod solids;

@@ -3,7 +3,7 @@
 use crate::support::states::{self, cpu, force, one, vector, word};
 use glam::DVec3;
 use motes::forces::Component;
-use motes::integrators::INTEGRATORS;
+use motes::integrators::{Entry, INTEGRATORS};
 use motes::settings::Value;
 
 /// An ellipse about a centre with GM = 1, from pericentre, a = 1, e = 0.5; the centre moves. Exact, by Kepler's equation.
@@ -34,6 +34,11 @@ fn error(
     ((x[0].truncate() - end.0).length_squared() + (v[0].truncate() - end.1).length_squared()).sqrt()
 }
 
+/// Integrators whose order shows as a slope; an order of 15 is lost in rounding, and has tests of its own.
+fn with_a_slope() -> impl Iterator<Item = &'static Entry> {
+    INTEGRATORS.iter().filter(|entry| entry.by_default().order() <= 4)
+}
+
 /// The slope between two step sizes. The next order of the error bends it by a part of about h: at the steps chosen here
 /// by less than a fifth.
 fn assert_order(of: &str, order: u32, coarse: f64, fine: f64) {
@@ -51,7 +56,7 @@ fn steps_for(order: u32) -> u32 {
 fn orders_with_position_and_time() {
     // Off the period, where errors of a closed orbit do not cancel.
     let time = 2.3;
-    for entry in INTEGRATORS {
+    for entry in with_a_slope() {
         let order = entry.by_default().order();
         let mut resting = 0.0;
         for speed in [DVec3::ZERO, DVec3::new(0.3, -0.2, 0.5)] {
@@ -82,7 +87,7 @@ fn orders_with_velocity() {
     let (time, rate) = (1.3f64, 0.8);
     let start = (DVec3::new(0.3, -0.4, 0.2), DVec3::new(0.7, 0.5, -0.6));
     let end = (start.0 + start.1 * (1.0 - (-rate * time).exp()) / rate, start.1 * (-rate * time).exp());
-    for entry in INTEGRATORS {
+    for entry in with_a_slope() {
         let order = entry.by_default().order_with_velocity();
         let drag = || vec![force("drag", &[("linear", Value::Number(rate))])];
         let steps = [0, 512, 128, 64, 32][order as usize];
@@ -113,7 +118,7 @@ fn orders_with_velocity_and_time() {
     fine.step(2048).expect("steps");
     let (x, v) = states::phase(&mut fine);
     let end = (x[0].truncate(), v[0].truncate());
-    for entry in INTEGRATORS {
+    for entry in with_a_slope() {
         let order = entry.by_default().order_with_velocity();
         let steps = [0, 1024, 128, 64, 64][order as usize];
         let errors = [steps, 2 * steps].map(|n| error(gusts(), entry.name, start, end, time, n));

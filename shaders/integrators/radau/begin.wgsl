@@ -8,10 +8,27 @@ const WORKGROUP: u32 = 64u;
 // Beyond so many lengths of the last step its polynomial says nothing.
 const FAR: f32 = 4.0;
 
-fn along(g: array<vec3f, 7>, h: f32) -> vec3f {
-    var sum = vec3f();
-    for (var k = DIFFERENCES; k > 0u; k -= 1u) { sum = (h - NODE[k - 1u]) * (sum + g[k - 1u]); }
-    return sum;
+// The polynomial from another start, with its length in the new step's: by its powers.
+fn predicted(differences: array<vec3f, 7>, start: f32, ratio: f32) -> array<vec3f, 7> {
+    var power: array<vec3f, 8>;
+    for (var k = 0u; k < DIFFERENCES; k += 1u) { power[k + 1u] = differences[k]; }
+    for (var k = DIFFERENCES - 1u; k > 0u; k -= 1u) {
+        for (var j = k; j < DIFFERENCES; j += 1u) { power[j] -= NODE[k] * power[j + 1u]; }
+    }
+    for (var k = 1u; k <= DIFFERENCES; k += 1u) {
+        for (var j = DIFFERENCES; j >= k; j -= 1u) { power[j - 1u] += start * power[j]; }
+    }
+    var scale = 1.0;
+    for (var k = 1u; k <= DIFFERENCES; k += 1u) {
+        scale *= ratio;
+        power[k] *= scale;
+    }
+    for (var k = 1u; k < DIFFERENCES; k += 1u) {
+        for (var j = DIFFERENCES; j > k; j -= 1u) { power[j - 1u] += NODE[k] * power[j]; }
+    }
+    var all: array<vec3f, 7>;
+    for (var k = 0u; k < DIFFERENCES; k += 1u) { all[k] = power[k + 1u]; }
+    return all;
 }
 
 @compute @workgroup_size(WORKGROUP)
@@ -26,13 +43,9 @@ fn radau_begin(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) gro
         let ratio = select(0.0, world.dt / last, known);
         var before: array<vec3f, 7>;
         for (var k = 0u; k < DIFFERENCES; k += 1u) { before[k] = acceleration_differences[i * DIFFERENCES + k].xyz; }
-        let start = along(before, radau_step[1]);
-        var g: array<vec3f, 7>;
-        for (var n = 1u; n <= DIFFERENCES; n += 1u) {
-            var difference = (along(before, radau_step[1] + ratio * NODE[n]) - start) / NODE[n];
-            for (var k = 1u; k < n; k += 1u) { difference = (difference - g[k - 1u]) / (NODE[n] - NODE[k]); }
-            g[n - 1u] = difference;
-            acceleration_differences[i * DIFFERENCES + n - 1u] = select(vec4f(), vec4f(difference, 0.0), known);
+        let next = predicted(before, radau_step[1], ratio);
+        for (var k = 0u; k < DIFFERENCES; k += 1u) {
+            acceleration_differences[i * DIFFERENCES + k] = select(vec4f(), vec4f(next[k], 0.0), known);
         }
     }
     go(i);

@@ -3,6 +3,7 @@
 @group(1) @binding(0) var<storage, read> radau_largest: array<vec4f>;     // change, acceleration, last difference
 @group(1) @binding(1) var<storage, read_write> radau_step: array<f32>;    // its length, 1 if it was accepted, steps in a longest one
 @group(1) @binding(2) var<storage, read_write> step_clock: array<u32>;    // 2 the ticks of this step, 4 its reason, from 12 on their numbers
+@group(1) @binding(3) var<storage, read> radau_iteration: array<Iteration>;
 
 override UNIT: f32 = 1.0;      // the longest step
 override TOLERANCE: f32 = 0.0; // ε
@@ -10,6 +11,8 @@ override NOISE: f32 = 0.0;     // what rounding makes of e
 // A step that is so many times too long is tried again.
 const TOO_LONG: f32 = 4.0;
 const LONGER: f32 = 16.0;
+// How long a step is tried next whose iterations have not settled.
+const UNSETTLED: f32 = 0.2;
 const STOP: u32 = 6u;
 const REASONS: u32 = 12u;
 
@@ -21,6 +24,7 @@ fn radau_decide() {
     // (ε / e)^(1/7)
     var longer = LONGER;
     if error > 0.0 { longer = min(pow(TOLERANCE * all.y / error, 1.0 / 7.0), LONGER); }
+    if radau_iteration[0].done == 0.0 { longer = min(longer, UNSETTLED); }
     let accepted = longer * TOO_LONG >= 1.0;
     let reason = step_clock[4];
     // A step that a stop shortened does not say that the next one must be as short.

@@ -7,7 +7,7 @@ use glam::{DVec3, DVec4, Vec4};
 use crate::error::Error;
 use crate::kernel::{
     ACCELERATION, Field, Host, Kernel, LARGEST_CRITERION, Machine, POSITION, POSITION_LOW, Problem, Reason, STEP_CLOCK,
-    STEP_CLOCK_WORDS, Shader, Source, VELOCITY, VELOCITY_LOW, World,
+    STEP_CLOCK_WORDS, Shader, Source, TICKS, VELOCITY, VELOCITY_LOW, World,
 };
 use crate::primitives::{Items, Operation, rows};
 
@@ -30,6 +30,8 @@ pub const DIFFERENCES: Field<Vec4> = Field::new("acceleration_differences");
 pub const STEP: Field<f32> = Field::new("radau_step");
 /// The state of iterations: whether they have ended, how many there were, and the change by the last one.
 pub const ITERATION: Field<f32> = Field::new("radau_iteration");
+/// The number of fixed steps whose iterations did not settle, and the first of them.
+pub const UNSETTLED_STEPS: Field<u32> = Field::new("radau_unsettled");
 /// The start of a step: six vectors for each particle.
 const START: Field<Vec4> = Field::new("step_start");
 const SIZES: Field<Vec4> = Field::new("radau_sizes");
@@ -47,6 +49,8 @@ const FAR: f64 = 4.0;
 const TOO_LONG: f64 = 4.0;
 /// The most by which an error lets steps grow.
 const LONGER: f64 = 16.0;
+/// How long a step is tried next whose iterations have not settled.
+const UNSETTLED: f64 = 0.2;
 /// The rounding error of accelerations, in the last places of a number, and what the last of seven divided differences makes of it:
 /// Σₙ 1 / Πₖ |hₙ − hₖ|.
 const PLACES: f64 = 3.0;
@@ -55,6 +59,11 @@ const AMPLIFIED: f64 = 11_525.0;
 /// Half of the distance between 1 and the next number, in the arithmetic of a machine.
 fn place(machine: &Machine) -> f64 {
     if *machine == Machine::HOST { 0.5 * f64::EPSILON } else { f64::from(0.5 * f32::EPSILON) }
+}
+
+/// What rounding of accelerations makes of the last difference, relative to the largest acceleration.
+fn noise(machine: &Machine) -> f64 {
+    PLACES * AMPLIFIED * place(machine)
 }
 
 /// The integrals of the terms h (h − h₁) … (h − hₖ), and the integrals of these, from 0 to h.
@@ -89,6 +98,7 @@ struct Part {
     is_double: bool,
     /// The step, or the longest one.
     dt: f64,
+    is_adaptive: bool,
     /// What the part of the step in single precision lacks; `None`: the device computes it.
     lacks: Option<f64>,
 }
@@ -99,11 +109,9 @@ impl Part {
         #[expect(clippy::cast_possible_truncation, reason = "as the device multiplies")]
         let product = f64::from(h as f32 * problem.dt as f32);
         // At a node of an adaptive step it does not matter: what is computed there are accelerations, which are single.
-        let lacks = match problem.adaptive_step {
-            None => Some(h * problem.dt - product),
-            Some(_) => (h < 1.0).then_some(0.0),
-        };
-        Self { h, once, twice, is_double: problem.precision.is_double(), dt: problem.dt, lacks }
+        let is_adaptive = problem.adaptive_step.is_some();
+        let lacks = if is_adaptive { (h < 1.0).then_some(0.0) } else { Some(h * problem.dt - product) };
+        Self { h, once, twice, is_double: problem.precision.is_double(), dt: problem.dt, is_adaptive, lacks }
     }
     fn files(&self) -> Vec<Source> {
         let mut files =
@@ -155,9 +163,17 @@ impl Part {
         }
         Ok(())
     }
+    /// The length of the step, with what single precision lacks: the way by the velocity at its start is the largest by far.
+    fn length(&self, host: &Host) -> Result<f64, Error> {
+        Ok(match self.lacks {
+            Some(_) if self.is_double && !self.is_adaptive => self.dt,
+            None if self.is_double => f64::from(host.read(STEP_CLOCK)?[2]) / f64::from(TICKS) * self.dt,
+            _ => host.world().dt,
+        })
+    }
     /// To the part of the step, or back to its start.
     fn go(&self, host: &Host, back: bool) -> Result<(), Error> {
-        let dt = if back { 0.0 } else { host.world().dt };
+        let (whole, dt) = (self.length(host)?, host.world().dt);
         let (start, differences) = (host.read(START)?, host.read(DIFFERENCES)?);
         let (mut x, mut v) = (host.write(POSITION)?, host.write(VELOCITY)?);
         let mut low = if self.is_double { Some((host.write(POSITION_LOW)?, host.write(VELOCITY_LOW)?)) } else { None };
@@ -169,8 +185,15 @@ impl Part {
                 kick += self.once[k] * g.truncate();
             }
             let v0 = its[START_VELOCITY];
+            if back {
+                (x[i], v[i]) = (its[0], v0);
+                if let Some((x_low, v_low)) = &mut low {
+                    (x_low[i], v_low[i]) = (its[LOW_POSITION], its[LOW_VELOCITY]);
+                }
+                continue;
+            }
             let lows = if low.is_some() { [its[LOW_POSITION], its[LOW_VELOCITY]] } else { [DVec4::ZERO; 2] };
-            let moved = lows[0].truncate() + self.h * dt * (v0 + lows[1]).truncate() + dt * dt * drift;
+            let moved = lows[0].truncate() + self.h * whole * (v0 + lows[1]).truncate() + dt * dt * drift;
             let faster = lows[1].truncate() + dt * kick;
             let (position, rest) = two_sum(its[0].truncate(), moved);
             let (velocity, slower) = two_sum(v0.truncate(), faster);
@@ -232,9 +255,34 @@ fn single(
     Ok(Kernel { name: name.to_owned(), sizes: sizes(problem), ..kernel })
 }
 
-/// The sum of the terms of the polynomial at h.
-fn along(g: &[DVec3; NODES as usize], h: f64) -> DVec3 {
-    (0..g.len()).rev().fold(DVec3::ZERO, |sum, k| (h - NODE[k]) * (sum + g[k]))
+/// The polynomial from another start, with its length in the new step's: by its powers.
+fn predicted(differences: &[DVec3; NODES as usize], start: f64, ratio: f64) -> [DVec3; NODES as usize] {
+    let last = NODES as usize;
+    let mut power = [DVec3::ZERO; NODES as usize + 1];
+    power[1..].copy_from_slice(differences);
+    for k in (1..last).rev() {
+        for j in k..last {
+            power[j] -= NODE[k] * power[j + 1];
+        }
+    }
+    for k in 0..last {
+        for j in (k..last).rev() {
+            power[j] += start * power[j + 1];
+        }
+    }
+    let mut scale = 1.0;
+    for power in &mut power[1..] {
+        scale *= ratio;
+        *power *= scale;
+    }
+    for k in 1..last {
+        for j in (k..last).rev() {
+            power[j] += NODE[k] * power[j + 1];
+        }
+    }
+    let mut all = [DVec3::ZERO; NODES as usize];
+    all.copy_from_slice(&power[1..]);
+    all
 }
 
 /// Before the first iteration.
@@ -262,12 +310,8 @@ pub fn begin(problem: &Problem) -> Result<Kernel, Error> {
                     let own = &mut differences[i * NODES as usize..][..NODES as usize];
                     let mut before = [DVec3::ZERO; NODES as usize];
                     before.iter_mut().zip(own.iter()).for_each(|(before, own)| *before = own.truncate());
-                    let from = along(&before, step[1]);
-                    let value = |h: f64| along(&before, step[1] + dt / step[0] * h) - from;
-                    for n in 1..NODE.len() {
-                        let guess = if known { difference(value(NODE[n]), own, n) } else { DVec3::ZERO };
-                        own[n - 1] = guess.extend(0.0);
-                    }
+                    let next = if known { predicted(&before, step[1], dt / step[0]) } else { [DVec3::ZERO; 7] };
+                    own.iter_mut().zip(next).for_each(|(own, next)| *own = next.extend(0.0));
                 }
             }
         }
@@ -327,12 +371,13 @@ pub fn settle(problem: &Problem) -> Result<[Kernel; 3], Error> {
     let measure = Kernel { name: "measure differences".to_owned(), sizes: sizes(problem), ..measure };
     let (of, into) = (SIZES.name.into(), LARGEST.name.into());
     let reduced = rows(Operation::Max, Items::Vec4, &of, &into, problem.capacity, &problem.machine)?;
-    let rounding = place(&problem.machine);
+    let (rounding, noise) = (place(&problem.machine), noise(&problem.machine));
     let files = [crate::shader!("integrators/radau/iteration.wgsl"), crate::shader!("integrators/radau/settle.wgsl")];
-    let settle = single("settle", &files, vec![("ROUNDING", rounding)], problem, move |host| {
+    let constants = vec![("ROUNDING", rounding), ("NOISE", noise)];
+    let settle = single("settle", &files, constants, problem, move |host| {
         let (all, mut iteration) = (host.read(LARGEST)?[0], host.write(ITERATION)?);
         let (change, count) = (all.x / all.y, iteration[1] + 1.0);
-        let idle = count > 2.0 && change >= iteration[2];
+        let idle = count > 1.0 && change >= iteration[2] && change <= noise;
         let done = all.x <= rounding * all.y || idle || host.world().dt == 0.0;
         iteration.copy_from_slice(&[f64::from(u8::from(done)), count, change]);
         Ok(())
@@ -343,15 +388,25 @@ pub fn settle(problem: &Problem) -> Result<[Kernel; 3], Error> {
 /// The verdict on a step, by its error where steps are adaptive.
 pub fn decide(tolerance: f64, problem: &Problem) -> Result<Kernel, Error> {
     if problem.adaptive_step.is_none() {
-        let files = [crate::shader!("integrators/radau/accept.wgsl")];
-        return single("accept", &files, Vec::new(), problem, |host| {
-            let mut step = host.write(STEP)?;
-            (step[0], step[1]) = (host.world().dt, 1.0);
+        let files =
+            [crate::shader!("integrators/radau/iteration.wgsl"), crate::shader!("integrators/radau/accept.wgsl")];
+        let kernel = single("accept", &files, Vec::new(), problem, |host| {
+            let (iteration, world, mut step) = (host.read(ITERATION)?, host.world(), host.write(STEP)?);
+            (step[0], step[1]) = (world.dt, 1.0);
+            let mut report = host.write(UNSETTLED_STEPS)?;
+            if iteration[0] == 0.0 {
+                if report[0] == 0 {
+                    report[1] = world.step;
+                }
+                report[0] += 1;
+            }
             Ok(())
-        });
+        })?;
+        let sizes = [kernel.sizes, vec![(UNSETTLED_STEPS.name.into(), 2)]].concat();
+        return Ok(Kernel { sizes, ..kernel });
     }
-    let (unit, noise) = (problem.dt, PLACES * AMPLIFIED * place(&problem.machine));
-    let files = [crate::shader!("integrators/radau/decide.wgsl")];
+    let (unit, noise) = (problem.dt, noise(&problem.machine));
+    let files = [crate::shader!("integrators/radau/iteration.wgsl"), crate::shader!("integrators/radau/decide.wgsl")];
     let constants = vec![("UNIT", unit), ("TOLERANCE", tolerance), ("NOISE", noise)];
     single("decide", &files, constants, problem, move |host| {
         let world = host.world();
@@ -360,8 +415,11 @@ pub fn decide(tolerance: f64, problem: &Problem) -> Result<Kernel, Error> {
         }
         let (all, mut step, mut clock) = (host.read(LARGEST)?[0], host.write(STEP)?, host.write(STEP_CLOCK)?);
         let error = (all.z - noise * all.y).max(0.0);
-        let longer =
+        let mut longer =
             if error > 0.0 { (tolerance * all.y / error).powf(1.0 / f64::from(NODES)).min(LONGER) } else { LONGER };
+        if host.read(ITERATION)?[0] == 0.0 {
+            longer = longer.min(UNSETTLED);
+        }
         let accepted = longer * TOO_LONG >= 1.0;
         let reason = clock[4];
         if !(accepted && reason == Reason::Stop as u32 && longer >= 1.0) {
@@ -397,4 +455,76 @@ pub fn criterion(problem: &Problem) -> Result<Kernel, Error> {
         Ok(())
     })?;
     Ok(Kernel { sizes: [kernel.sizes, vec![(LARGEST_CRITERION.name.into(), 1)]].concat(), ..kernel })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// P₇ + P₈ by Bonnet's recursion.
+    fn radau(x: f64) -> f64 {
+        let (mut before, mut now) = (1.0, x);
+        for n in 1..7 {
+            let n = f64::from(n);
+            (before, now) = (now, ((2.0 * n + 1.0) * x * now - n * before) / (n + 1.0));
+        }
+        now + (15.0 * x * now - 7.0 * before) / 8.0
+    }
+
+    #[test]
+    fn nodes_are_zeros() {
+        for node in NODE {
+            let x = 2.0 * node - 1.0;
+            let slope = (radau(x + 1e-6) - radau(x - 1e-6)) / 2e-6;
+            assert!((radau(x) / slope).abs() < 1e-15 * 3.0, "{node}");
+        }
+    }
+
+    /// A polynomial of degree 7 is its divided differences, and its integrals are exact.
+    #[test]
+    fn integrals_of_powers() {
+        for power in 1..=7 {
+            let mut g = [DVec4::ZERO; NODES as usize];
+            for n in 1..NODE.len() {
+                g[n - 1] = difference(DVec3::splat(NODE[n].powi(power)), &g, n).extend(0.0);
+            }
+            let terms = g.map(DVec4::truncate);
+            // From t = a on in parts of s: the differences of ((a + s h)ⁿ − aⁿ).
+            for (a, s) in [(1.0, 0.7), (0.0, 0.3), (1.0, 2.5)] {
+                let mut want = [DVec4::ZERO; NODES as usize];
+                for n in 1..NODE.len() {
+                    let value = f64::from(a + s * NODE[n]).powi(power) - f64::from(a).powi(power);
+                    want[n - 1] = difference(DVec3::splat(value), &want, n).extend(0.0);
+                }
+                for (found, want) in predicted(&terms, a, s).iter().zip(want) {
+                    assert!(
+                        (found.x - want.x).abs() < 1e-10 * s.powi(power).max(1.0),
+                        "{power}, {a}, {s}: {found}, {want}"
+                    );
+                }
+            }
+            for h in [0.3, 1.0, 1.7] {
+                let n = f64::from(power);
+                let [once, twice] = integrals(h).map(|all| all.iter().zip(&terms).map(|(w, g)| w * g.x).sum::<f64>());
+                assert!((once - h.powi(power + 1) / (n + 1.0)).abs() < 1e-12, "{power}, {h}: {once}");
+                assert!((twice - h.powi(power + 2) / ((n + 1.0) * (n + 2.0))).abs() < 1e-12, "{power}, {h}: {twice}");
+            }
+        }
+    }
+
+    #[test]
+    fn rounding_is_amplified_by_what_is_said() {
+        let one = |n: usize| (0..NODE.len()).filter(|k| *k != n).map(|k| NODE[n] - NODE[k]).product::<f64>();
+        let sum: f64 = (0..NODE.len()).map(|n| 1.0 / one(n).abs()).sum();
+        assert!((sum / AMPLIFIED - 1.0).abs() < 1e-3, "{sum}");
+    }
+
+    /// A first number and its rest are the exact sum.
+    #[test]
+    fn sums_keep_their_rest() {
+        let (sum, rest) = two_sum(DVec3::splat(1.0), DVec3::splat(1e-20));
+        assert_eq!((sum.x, rest.x), (1.0, 1e-20));
+        let (sum, rest) = two_sum(DVec3::splat(1e-20), DVec3::splat(1.0));
+        assert_eq!((sum.x, rest.x), (1.0, 1e-20));
+    }
 }

@@ -61,7 +61,7 @@ fn orders(entry: &Entry) -> [u32; 4] {
 
 #[test]
 fn every_integrator_has_its_order() {
-    for entry in INTEGRATORS {
+    for entry in INTEGRATORS.iter().filter(|entry| entry.by_default().advances_columns()) {
         let orders = orders(entry);
         for (place, what) in ["charge", "angle", "dose", "tracer"].into_iter().enumerate() {
             let order = orders[place];
