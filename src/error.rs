@@ -76,9 +76,8 @@ pub enum Error {
     },
     /// Forces require a step that is shorter than the minimum. Remedy: a start with weaker forces, or a smaller minimum.
     #[error(
-        "step {step} would have to be {wanted:.3e} long, shorter than dt_min = {least:.3e}, because of the {reason} of {particle}: {}, or \
-         set a smaller dt_min",
-        longer_steps(reason)
+        "step {step} would have to be {wanted:.3e} long, shorter than dt_min = {least:.3e}, because of the {reason} of {particle}: {remedy}, or \
+         set a smaller dt_min"
     )]
     TooShort {
         /// The step, counted from 0.
@@ -91,6 +90,8 @@ pub enum Error {
         reason: &'static str,
         /// The limiting particle.
         particle: String,
+        /// What allows longer steps.
+        remedy: &'static str,
     },
     /// Forces require a block time step that is shorter than the shortest. Remedy: more levels, a shorter step, or a larger softening.
     #[error(
@@ -191,15 +192,6 @@ pub enum Error {
         /// The reason.
         message: String,
     },
-}
-
-/// What allows longer steps where they are too short for a reason.
-fn longer_steps(reason: &str) -> &'static str {
-    if reason == crate::kernel::Reason::Error.name() {
-        "look for bodies that start too close to each other; if precision is \"single\", its rounding errors count: choose \"double_single\""
-    } else {
-        "look for particles that start too close to each other or to a wall"
-    }
 }
 
 impl Error {

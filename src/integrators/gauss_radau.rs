@@ -1,4 +1,4 @@
-//! The method of Gauß and Radau of order 15 (Everhart 1985; Rein & Spiegel 2015, who call a variant of it IAS15): the acceleration along a step
+//! The method of Gauß and Radau of order 15 (Everhart 1985; IAS15 of Rein & Spiegel 2015 is a variant of it): the acceleration along a step
 //! is a polynomial through its values at eight times, the start and the seven nodes h of Radau's quadrature,
 //!
 //! a(h) = a₀ + h (g₁ + (h − h₁) (g₂ + (h − h₂) (g₃ + …))),
@@ -57,7 +57,7 @@ impl Integrator for GaussRadau {
         let step = "the length of the last step, 1 if it was accepted and not tried again, and the number of steps in a longest one";
         vec![
             Column::new(radau::DIFFERENCES.name, Kind::Vector, "length / time²", differences)
-                .shaped(Shape::Slots(radau::NODES)),
+                .shaped(Shape::Slots(radau::polynomial::NODES)),
             Column::new(radau::STEP.name, Kind::Scalar, "", step).shaped(Shape::System(3)),
         ]
     }

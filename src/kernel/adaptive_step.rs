@@ -74,6 +74,16 @@ impl Reason {
     pub fn of(number: u32) -> Self {
         Self::ALL.get(number as usize).copied().unwrap_or(Self::Longest)
     }
+    /// What allows longer steps, where it requires too short ones.
+    #[must_use]
+    pub fn remedy(self) -> &'static str {
+        match self {
+            Self::Error => {
+                "look for bodies that start too close to each other; if precision is \"single\", its rounding errors count: choose \"double_single\""
+            }
+            _ => "look for particles that start too close to each other or to a wall",
+        }
+    }
     /// Its name, one word, for tables.
     #[must_use]
     pub fn name(self) -> &'static str {

@@ -30,6 +30,7 @@ pub const SCENES: &[Builtin] = scenes![
     "throw",
     "kepler",
     "figure_eight",
+    "pythagorean",
     "solar_system",
     "galaxy",
     "merger",

@@ -147,6 +147,7 @@ impl<B: Backend> Simulation<B> {
             least: adaptive_step.least,
             reason: Reason::of(words[7]).name(),
             particle,
+            remedy: Reason::of(words[7]).remedy(),
         })
     }
 }

@@ -143,6 +143,7 @@ fn scenes_scale_by_one_number() {
         "pendulum",
         "double_pendulum",
         "figure_eight",
+        "pythagorean",
         "solar_system",
         "salt",
         "argon",

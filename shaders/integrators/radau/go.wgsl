@@ -1,3 +1,4 @@
+// Positions and velocities: saved, put back, and at a part of the step:  x ← x₀ + h dt v₀ + Δx,  v ← v₀ + Δv.
 @group(1) @binding(0) var<storage, read_write> position: array<vec4f>; // xyz, mass
 @group(1) @binding(1) var<storage, read_write> velocity: array<vec4f>; // xyz, radius
 

@@ -147,11 +147,25 @@ async fn states<B: Backend>(backend: B, setup: &Setup, steps: u64, every: u64) -
     let mut done = 0;
     while done < steps {
         let batch = every.min(steps - done);
-        simulation.step(u32::try_from(batch).unwrap_or(u32::MAX))?;
         done += batch;
+        if setup.integrator.adaptive_step().is_some() {
+            until(&mut simulation, done as f64 * setup.dt, setup.dt).await?;
+        } else {
+            simulation.step(u32::try_from(batch).unwrap_or(u32::MAX))?;
+        }
         states.push(simulation.snapshot().await?);
     }
     Ok(states)
+}
+
+/// Adaptive steps, none longer than `longest`, to a time.
+async fn until<B: Backend>(simulation: &mut Simulation<B>, time: f64, longest: f64) -> Result<(), Failure> {
+    let time = simulation.stop_at(time)?;
+    while let Some(clock) = simulation.clock().await?.filter(|clock| clock.time < time) {
+        simulation.step(clock.steps_before(time, longest))?;
+        simulation.check().await?;
+    }
+    Ok(())
 }
 
 impl Verdict {

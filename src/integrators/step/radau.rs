@@ -22,7 +22,7 @@ impl Step<'_> {
         self.add(radau::begin(&self.problem));
         self.moved = true;
         self.repeat(MOST, radau::ITERATION.name, "done", |step| {
-            for (node, h) in radau::NODE.into_iter().enumerate().skip(1) {
+            for (node, h) in radau::polynomial::NODE.into_iter().enumerate().skip(1) {
                 step.at(h);
                 step.evaluate();
                 step.add(radau::node(node, &step.problem));

@@ -17,6 +17,7 @@ fn every_one_loads_and_says_what_to_see() {
         "throw",
         "kepler",
         "figure_eight",
+        "pythagorean",
         "solar_system",
         "galaxy",
         "merger",

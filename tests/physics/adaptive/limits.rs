@@ -118,7 +118,7 @@ fn too_short_a_step_ends_a_run() {
     let mut device = on_gpu(&shared, &setup);
     pollster::block_on(device.check()).expect("nothing has happened yet");
     device.step(3).expect("steps");
-    let Err(Error::TooShort { step, wanted, least, reason, particle }) = pollster::block_on(device.check()) else {
+    let Err(Error::TooShort { step, wanted, least, reason, particle, .. }) = pollster::block_on(device.check()) else {
         panic!("a step of a millionth must be reported");
     };
     assert_eq!((step, reason, particle.as_str(), least), (0, "acceleration", "particle 0", ADAPTIVE.least));
