@@ -76,8 +76,7 @@ pub enum Error {
     },
     /// Forces require a step that is shorter than the minimum. Remedy: a start with weaker forces, or a smaller minimum.
     #[error(
-        "step {step} would have to be {wanted:.3e} long, shorter than dt_min = {least:.3e}, because of the {reason} of {particle}: {remedy}, or \
-         set a smaller dt_min"
+        "step {step} would have to be {wanted:.3e} long, shorter than dt_min = {least:.3e}, because of the {reason} of {particle}: {remedy}"
     )]
     TooShort {
         /// The step, counted from 0.

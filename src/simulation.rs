@@ -29,7 +29,7 @@ mod ties;
 mod unwritten;
 mod virial;
 
-pub use adaptive_step::Clock;
+pub use adaptive_step::{Clock, refuses_own_steps};
 pub use blocks::{Levels, refuses_blocks};
 pub use inactive::serves;
 pub use pressures::PressureSolves;
@@ -42,7 +42,7 @@ pub use solves::{Outcome, Solves, Unsettled};
 use crate::cpu::threads;
 use crate::error::Error;
 use crate::gpu::Gpu;
-use crate::integrators::{SOLVE_REPORT, UNSETTLED_STEPS};
+use crate::integrators::{RADAU_STEP, SOLVE_REPORT};
 use crate::kernel::{AdaptiveStep, Array, Backend, Element, Field, HOME, ListShape, POSITION, Plan, Problem, VELOCITY};
 use crate::sph::DFSPH_REPORT;
 use crate::state::State;
@@ -138,7 +138,7 @@ impl<B: Backend> Simulation<B> {
         setup.weighs(&problem)?;
         let plans = setup.plans_of(&problem)?;
         let (plan, marks, largest) = (plans.step.to_string(), alarm::marks(&plans), setup.largest(&BTreeMap::new()));
-        let reports = [SOLVE_REPORT, DFSPH_REPORT, UNSETTLED_STEPS.name]
+        let reports = [SOLVE_REPORT, DFSPH_REPORT, RADAU_STEP.name]
             .map(|name| plans.step.kernels.iter().any(|kernel| kernel.names(name)));
         let (list, fields) = (plans.list, Fields::of(&plans, count));
         let repeat = lists::Repeat::of(&plans, list);

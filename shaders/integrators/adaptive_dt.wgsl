@@ -10,6 +10,7 @@
 override UNIT: f32 = 1.0;        // the longest step
 override LEAST: u32 = 1u;        // the ticks of the shortest
 override VISCOUS: f32 = 0.0;     // the number of steps that viscosity requires
+override RECORDS: u32 = 1u; // 0: the integrator records the length, since it may try a step again
 const TICKS: f32 = 16777216.0;
 const DIGITS: u32 = 11u;
 const NONE: u32 = 4294967295u;
@@ -74,8 +75,10 @@ fn adaptive_dt() {
     // A step of no length leaves no trace in these.
     if ticks > 0u {
         step_clock[3] = free;
-        step_clock[10] = min(step_clock[10], ticks);
-        step_clock[11] = max(step_clock[11], ticks);
+        if RECORDS == 1u {
+            step_clock[10] = min(step_clock[10], ticks);
+            step_clock[11] = max(step_clock[11], ticks);
+        }
         step_clock[REASONS + reason] += 1u;
     }
 }

@@ -154,7 +154,7 @@ async fn start(
         Ok(Driven { end, solves, pressures, unsettled, list }) => {
             let concluded = conclude::conclude(&run, end, &conserved, (&progress, device));
             solves::tell(&progress, solves, pressures);
-            solves::tell_unsettled(&progress, unsettled);
+            solves::tell_unsettled(&progress, unsettled, run.scene().adaptive_step.is_some());
             neighbors::tell(&progress, list);
             concluded
         }

@@ -29,13 +29,17 @@ pub fn tell(progress: &Progress, solves: Option<Solves>, pressures: Option<[Pres
     }
 }
 
-/// Reports steps along which accelerations did not settle.
-pub fn tell_unsettled(progress: &Progress, unsettled: Option<Unsettled>) {
+/// Reports steps along which accelerations did not settle, or adaptive ones that were tried again.
+pub fn tell_unsettled(progress: &Progress, unsettled: Option<Unsettled>, is_adaptive: bool) {
     let Some(Unsettled { steps, first }) = unsettled else { return };
     progress.event("unsettled", json!({ "steps": steps, "first": first }));
-    progress.say(&format!(
-        "warning: the accelerations along {steps} steps did not settle, the first of them step {first}: choose a smaller dt, or adaptive = true"
-    ));
+    if is_adaptive {
+        progress.conclude(&format!("steps that were tried again, shorter: {steps}, the first of them step {first}"));
+    } else {
+        progress.say(&format!(
+            "warning: accelerations did not settle along steps: {steps} of them, the first of which is step {first}: choose a smaller dt, or adaptive = true"
+        ));
+    }
 }
 
 /// Reports the pressure solves, and a remedy if some did not converge.

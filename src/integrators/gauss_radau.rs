@@ -54,11 +54,11 @@ impl Integrator for GaussRadau {
     }
     fn columns(&self) -> Vec<Column> {
         let differences = "the divided differences of the accelerations along the last step";
-        let step = "the length of the last step, 1 if it was accepted and not tried again, and the number of steps in a longest one";
+        let step = "the length of the last step, 1 if it was accepted, the number of steps in a longest one; how many steps did not settle or were tried again, and the first";
         vec![
             Column::new(radau::DIFFERENCES.name, Kind::Vector, "length / time²", differences)
                 .shaped(Shape::Slots(radau::polynomial::NODES)),
-            Column::new(radau::STEP.name, Kind::Scalar, "", step).shaped(Shape::System(3)),
+            Column::new(radau::STEP.name, Kind::Scalar, "", step).shaped(Shape::System(radau::STEP_WORDS)),
         ]
     }
     fn step(&self, s: &mut Step) {

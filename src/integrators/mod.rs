@@ -14,7 +14,7 @@ pub(crate) use step::kept_rates;
 #[doc(hidden)]
 pub use step::{Explicit, Form, Implicit, Step, implicit};
 #[doc(hidden)]
-pub use verbs::radau::UNSETTLED_STEPS;
+pub use verbs::radau::{STEP as RADAU_STEP, STEP_WORDS as RADAU_STEP_WORDS};
 #[doc(hidden)]
 pub use verbs::solve::STATE as SOLVE_STATE;
 #[doc(hidden)]

@@ -79,9 +79,10 @@ impl Reason {
     pub fn remedy(self) -> &'static str {
         match self {
             Self::Error => {
-                "look for bodies that start too close to each other; if precision is \"single\", its rounding errors count: choose \"double_single\""
+                "look for bodies that start too close to each other, and for forces that jump, as at a cut-off or over a tree; rounding counts in \
+                 single precision (choose precision = \"double_single\"), and where `tolerance` is small; or choose a smaller dt and dt_min"
             }
-            _ => "look for particles that start too close to each other or to a wall",
+            _ => "look for particles that start too close to each other or to a wall, or set a smaller dt_min",
         }
     }
     /// Its name, one word, for tables.

@@ -367,6 +367,10 @@ fn read(sections: &[(&'static str, Table<'_>)], files: &Files, options: &Options
     }
     if let Some((_, place)) = &simulation.adaptive_step {
         force::adapted(&forces, integrator.as_ref(), place, report);
+        let own = integrator.estimates_error();
+        if let Some(why) = crate::simulation::refuses_own_steps(&particles, &forces, &bounds).filter(|_| own) {
+            report.push(Fault::at(place, why));
+        }
     }
     if let Some((steps, place)) = &simulation.block_steps {
         // What is wrong with its numbers is known.

@@ -75,6 +75,8 @@ pub(super) const KEYS: &[Key] = &[
 ];
 /// The keys of block time steps only.
 const BLOCK: [&str; 4] = ["block_eta", "block_length", "block_mass", "block_shared"];
+/// The least tolerance of an integrator that estimates its error: above what rounding makes of it in double precision.
+const LEAST_TOLERANCE: f64 = 1e-11;
 /// The keys of adaptive steps only.
 const ADAPTIVE: [&str; 3] = ["dt_min", "dt_before", "cfl"];
 pub(super) const OWN: &[&str] = &["steps", "until", "until_redshift", "integrator"];
@@ -243,6 +245,12 @@ fn adaptive_step(
     if let Some(entry) = table.get("cfl").filter(|_| own) {
         let fault = format!("`cfl` is for the limits of forces, and {} estimates its error", of.integrator.name);
         report.push(Fault::at(&entry.place, fault).label("remove it; `tolerance` is what this integrator has"));
+    }
+    if let Some(entry) = table.get("tolerance").filter(|_| own && settings.number("tolerance") < LEAST_TOLERANCE) {
+        let fault = Fault::at(&entry.node.place, "`tolerance` is out of range");
+        report.push(fault.label(format!(
+            "at least {LEAST_TOLERANCE:e}: rounding in double precision makes 4e-12, on a device 2e-3"
+        )));
     }
     let some = |key| Some(settings.number(key)).filter(|x| *x > 0.0);
     let adaptive_step = AdaptiveStep {

@@ -2,7 +2,10 @@
 
 use super::Simulation;
 use crate::error::Error;
-use crate::kernel::{Array, Backend, Reason, STEP_CLOCK, STEP_CLOCK_WORDS, STOP, TICKS, split};
+use crate::forces::Component;
+use crate::kernel::{Array, Backend, Bounds, Reason, STEP_CLOCK, STEP_CLOCK_WORDS, STOP, Side, TICKS, split};
+use crate::motion::Hold;
+use crate::state::State;
 
 /// The state and the statistics of a clock.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -64,6 +67,25 @@ impl Clock {
             count += 1;
         }
     }
+}
+
+/// The reason for which an integrator cannot choose its steps by the error of forces: something acts at the ends of steps alone.
+#[must_use]
+pub fn refuses_own_steps(state: &State, forces: &[Box<dyn Component>], bounds: &Bounds) -> Option<String> {
+    let acts = forces.iter().find(|force| {
+        let properties = force.properties();
+        properties.constrains || properties.keeps_rods || properties.limits_links
+    });
+    let what = if state.held.iter().any(|held| held.by != Hold::Fixed) {
+        "particles are moved along paths".to_owned()
+    } else if bounds.has(Side::Reflecting) {
+        "the box has reflecting sides".to_owned()
+    } else {
+        format!("`{}` does", acts?.name())
+    };
+    Some(format!(
+        "the error of forces, by which steps are chosen, says nothing of what acts at the ends of steps alone, and {what}: choose leapfrog and a fixed dt"
+    ))
 }
 
 /// The time of a clock.

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use glam::DVec3;
 
-use super::{columns, inactive, initial_projection, lists, pair_history, tables, unwritten};
+use super::{columns, inactive, initial_projection, lists, pair_history, refuses_own_steps, tables, unwritten};
 use crate::boundary;
 use crate::component;
 use crate::crowds;
@@ -140,9 +140,15 @@ impl Setup {
             return Err(Error::Scene(format!("steps cannot be adaptive: {why}; choose leapfrog, or a fixed dt")));
         }
         match self.forces.iter().find_map(|force| force.properties().fixed_step) {
-            Some(why) => Err(Error::Scene(format!("steps cannot be adaptive: {why}; choose a fixed dt"))),
-            None => Ok(()),
+            Some(why) => return Err(Error::Scene(format!("steps cannot be adaptive: {why}; choose a fixed dt"))),
+            None if !self.integrator.estimates_error() => {}
+            None => {
+                if let Some(why) = refuses_own_steps(&self.state, &self.forces, &self.bounds) {
+                    return Err(Error::Scene(why));
+                }
+            }
         }
+        Ok(())
     }
     /// Refuses a second thermostat.
     fn has_one_thermostat(&self) -> Result<(), Error> {

@@ -2,7 +2,7 @@
 
 use super::Simulation;
 use crate::error::Error;
-use crate::integrators::{SOLVE_REPORT, SOLVE_REPORT_WORDS, SOLVE_STATE, UNSETTLED_STEPS};
+use crate::integrators::{RADAU_STEP, RADAU_STEP_WORDS, SOLVE_REPORT, SOLVE_REPORT_WORDS, SOLVE_STATE};
 use crate::kernel::{Array, Backend};
 
 /// The outcome of a solve.
@@ -35,7 +35,8 @@ pub struct Solves {
     pub residual: f64,
 }
 
-/// Steps of fixed length along which accelerations did not settle, see [`GaussRadau`](crate::integrators::GaussRadau).
+/// Steps along which accelerations did not settle, and adaptive ones that were tried again, see
+/// [`GaussRadau`](crate::integrators::GaussRadau).
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Unsettled {
     /// The number of such steps.
@@ -45,7 +46,7 @@ pub struct Unsettled {
 }
 
 impl<B: Backend> Simulation<B> {
-    /// Steps along which accelerations did not settle so far; `None` where there are none.
+    /// Steps along which accelerations did not settle so far, or adaptive ones that were tried again; `None` where there are none.
     ///
     /// # Errors
     /// Errors of reading.
@@ -54,9 +55,11 @@ impl<B: Backend> Simulation<B> {
             return Ok(None);
         }
         self.settle().await?;
-        let words = self.backend.read(UNSETTLED_STEPS.name, &Array::Uint(Vec::new()), 2).await?;
-        let Array::Uint(words) = words else { return Ok(None) };
-        let [steps, first] = words[..] else { return Ok(None) };
+        let all = self.backend.read(RADAU_STEP.name, &Array::Float(Vec::new()), RADAU_STEP_WORDS as usize).await?;
+        let Array::Float(words) = all else { return Ok(None) };
+        let [.., steps, first] = words[..] else { return Ok(None) };
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "whole numbers")]
+        let (steps, first) = (steps as u32, first as u32);
         Ok((steps > 0).then_some(Unsettled { steps, first }))
     }
     /// Statistics of the implicit solves so far; `None` where there are no iterative solves.

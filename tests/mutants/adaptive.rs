@@ -25,6 +25,8 @@ pub const EQUIVALENT: &[Equivalent] = &[
     same("adaptive_dt.wgsl", "override UNIT: f32 = 1.0;", "1.0", "1.5", ALWAYS_SET),
     same("adaptive_dt.wgsl", "override LEAST: u32 = 1u;", "1u", "2u", ALWAYS_SET),
     same("adaptive_dt.wgsl", "override VISCOUS: f32 = 0.0;", "0.0", "1.0", ALWAYS_SET),
+    same("adaptive_dt.wgsl", "override RECORDS: u32 = 1u;", "1u", "2u", ALWAYS_SET),
+    same("tick_adaptive.wgsl", "override WINDOW: u32 = 16u;", "16u", "17u", ALWAYS_SET),
     same("at_adaptive.wgsl", "override FACTOR: f32 = 0.0;", "0.0", "1.0", ALWAYS_SET),
     same("limiting_particle.wgsl", "if i < world.count {", "<", "<=", "behind the last particle there is no criterion"),
     same("adaptive_dt.wgsl", "for (var k = 0u; k < 4u;", "<", "<=", "the last one is looked at twice"),

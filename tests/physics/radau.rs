@@ -148,11 +148,11 @@ fn the_pythagorean_problem_on_a_device() {
         until(&mut simulation, *time, 0.1);
         let error = away(&state(&mut simulation), places);
         // Forces are rounded to 6e-8; encounters let that grow as they do above, by 1e4.
-        let bound = if *time < 2.0 { 1e-6 } else { 2e-2 };
+        let bound = if *time < 2.0 { 1e-6 } else { 1e-3 };
         assert!(error < bound, "at {time}: {error:e}");
     }
     let change = (energy(&mut simulation) / start - 1.0).abs();
-    assert!(change < 2e-5, "{change:e}");
+    assert!(change < 1e-5, "{change:e}");
 }
 
 #[test]
@@ -267,6 +267,9 @@ fn a_first_step_that_is_too_long_is_tried_again() {
         let ends = [0.015_625, 4.0].map(|longest| {
             let mut simulation = references(&adaptive(&start, gravity(), longest, Precision::Compensated));
             until(&mut simulation, 0.25, longest);
+            // Only steps that were made count.
+            let (clock, tried) = (clock(&mut simulation), pollster::block_on(simulation.unsettled()).expect("tries"));
+            assert!(clock.between[1] < 0.1 && tried.is_some() == (longest > 1.0), "{seed}: {clock:?}, {tried:?}");
             state(&mut simulation)
         });
         let apart = |a: &State, b: &State| {
@@ -279,6 +282,18 @@ fn a_first_step_that_is_too_long_is_tried_again() {
         let error = apart(&ends[0], &state(&mut simulation));
         assert!(error < 1e-5, "{seed}: {error:e}");
     }
+}
+
+/// Steps that grow from very short ones let speeds double again and again.
+#[test]
+fn a_slow_start_is_no_runaway() {
+    let mut setup = adaptive(&pythagorean(), gravity(), 0.1, Precision::Single);
+    let adaptive_step = AdaptiveStep { least: 1e-7, courant: 0.25, before: Some(1e-7) };
+    setup.integrator = Box::new(Adaptive { integrator: integrator("gauss_radau"), adaptive_step });
+    let mut simulation = references(&setup);
+    until(&mut simulation, 1.0, 0.1);
+    pollster::block_on(simulation.check()).expect("no alarm");
+    assert!(away(&state(&mut simulation), &PYTHAGOREAN[0].1) < 1e-12);
 }
 
 #[test]
@@ -369,6 +384,19 @@ fn what_does_not_settle_is_said() {
         ]
     };
     assert_eq!(run(1e-3), [None; 2]);
+    // A run that goes on knows of those before.
+    let setup = Setup { integrator: integrator("gauss_radau"), ..Setup::new(few(5, 3), gravity(), 3.0) };
+    let mut first = references(&setup);
+    first.step(2).expect("steps");
+    let middle = state(&mut first);
+    let mut second = references(&Setup {
+        state: middle,
+        integrator: integrator("gauss_radau"),
+        ..Setup::new(few(5, 3), gravity(), 3.0)
+    });
+    let both = [pollster::block_on(first.unsettled()), pollster::block_on(second.unsettled())]
+        .map(|all| all.expect("a report"));
+    assert!(both[0].is_some() && both[0] == both[1], "{both:?}");
     let [device, host] = run(3.0);
     assert!(device.is_some_and(|unsettled| unsettled.first == 0), "{device:?}");
     assert!(host.is_some_and(|unsettled| unsettled.first == 0), "{host:?}");

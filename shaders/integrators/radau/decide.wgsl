@@ -1,8 +1,8 @@
 // The end of an adaptive step: from its error follow the length of the next one, dt (ε / e)^(1/7), and whether this one is tried again.
 @group(0) @binding(0) var<storage, read_write> world: World;
 @group(1) @binding(0) var<storage, read> radau_largest: array<vec4f>;     // change, acceleration, last difference
-@group(1) @binding(1) var<storage, read_write> radau_step: array<f32>;    // its length, 1 if it was accepted, steps in a longest one
-@group(1) @binding(2) var<storage, read_write> step_clock: array<u32>;    // 2 the ticks of this step, 4 its reason, from 12 on their numbers
+@group(1) @binding(1) var<storage, read_write> radau_step: array<f32>;    // its length, 1 if it was accepted, steps in a longest one; tries, the first
+@group(1) @binding(2) var<storage, read_write> step_clock: array<u32>;    // 2 the ticks of this step, 4 its reason, 10 and 11 the shortest and the longest, from 12 on their numbers
 @group(1) @binding(3) var<storage, read> radau_iteration: array<Iteration>;
 
 override UNIT: f32 = 1.0;      // the longest step
@@ -31,7 +31,12 @@ fn radau_decide() {
     if !(accepted && reason == STOP && longer >= 1.0) { radau_step[2] = UNIT / (longer * world.dt); }
     radau_step[0] = world.dt;
     radau_step[1] = select(0.0, 1.0, accepted);
-    if !accepted {
+    if accepted {
+        step_clock[10] = min(step_clock[10], step_clock[2]);
+        step_clock[11] = max(step_clock[11], step_clock[2]);
+    } else {
+        if radau_step[3] == 0.0 { radau_step[4] = f32(world.step); }
+        radau_step[3] += 1.0;
         step_clock[REASONS + reason] -= 1u;
         step_clock[2] = 0u;
         world.dt = 0.0;

@@ -38,6 +38,7 @@ fn sizes() -> Vec<(crate::kernel::Name, u64)> {
 pub fn next_dt(adaptive_step: &AdaptiveStep, viscous: f64, problem: &Problem) -> Result<Kernel, Error> {
     let shader = Shader::join(&[crate::shader!("world.wgsl"), crate::shader!("integrators/adaptive_dt.wgsl")])?;
     let (unit, least, viscous) = (problem.dt, ticks(adaptive_step.least, problem.dt).max(1), viscous as f32);
+    let records = !problem.estimates_error;
     let reference = move |host: &Host| {
         let (world, largest_criterion, stop) = (host.world(), host.read(LARGEST_CRITERION)?, host.read(STOP)?);
         let mut words = host.write(STEP_CLOCK)?;
@@ -82,14 +83,21 @@ pub fn next_dt(adaptive_step: &AdaptiveStep, viscous: f64, problem: &Problem) ->
         (words[2], words[4], words[5]) = (step, reason, u32::MAX);
         if step > 0 {
             words[3] = free;
-            words[10] = words[10].min(step);
-            words[11] = words[11].max(step);
+            if records {
+                words[10] = words[10].min(step);
+                words[11] = words[11].max(step);
+            }
             words[12 + reason as usize] += 1;
         }
         host.set_world(World { dt: f64::from(step) / f64::from(TICKS) * unit, ..world });
         Ok(())
     };
-    let constants = vec![("UNIT", unit), ("LEAST", f64::from(least)), ("VISCOUS", f64::from(viscous))];
+    let constants = vec![
+        ("UNIT", unit),
+        ("LEAST", f64::from(least)),
+        ("VISCOUS", f64::from(viscous)),
+        ("RECORDS", f64::from(u8::from(records))),
+    ];
     let pass = Pass { constants, ..Pass::new(shader, 1) };
     Ok(Kernel {
         name: "adaptive dt".to_owned(),

@@ -18,12 +18,13 @@ use crate::primitives::{Items, Operation, rows};
 
 /// The divided differences of a particle's accelerations.
 pub const DIFFERENCES: Field<Vec4> = Field::new("acceleration_differences");
-/// The length of the last step, 1 if it was accepted, and the number of steps in a longest one.
+/// The length of the last step, 1 if it was accepted, the number of steps in a longest one; the number of steps that did not settle, or
+/// were tried again, and the first of them.
 pub const STEP: Field<f32> = Field::new("radau_step");
+/// The words of that.
+pub const STEP_WORDS: u32 = 5;
 /// The state of iterations: whether they have ended, how many there were, and the change by the last one.
 pub const ITERATION: Field<f32> = Field::new("radau_iteration");
-/// The number of fixed steps whose iterations did not settle, and the first of them.
-pub const UNSETTLED_STEPS: Field<u32> = Field::new("radau_unsettled");
 const SIZES: Field<Vec4> = Field::new("radau_sizes");
 const LARGEST: Field<Vec4> = Field::new("radau_largest");
 
@@ -55,7 +56,7 @@ fn sizes(problem: &Problem) -> Vec<(crate::kernel::Name, u64)> {
     vec![
         (DIFFERENCES.name.into(), rows * u64::from(NODES)),
         (START.name.into(), rows * SLOTS as u64),
-        (STEP.name.into(), 3),
+        (STEP.name.into(), STEP_WORDS.into()),
         (ITERATION.name.into(), 1),
         (LARGEST.name.into(), 1),
         (STEP_CLOCK.name.into(), STEP_CLOCK_WORDS as u64),
@@ -174,20 +175,14 @@ pub fn decide(tolerance: f64, problem: &Problem) -> Result<Kernel, Error> {
     if problem.adaptive_step.is_none() {
         let files =
             [crate::shader!("integrators/radau/iteration.wgsl"), crate::shader!("integrators/radau/accept.wgsl")];
-        let kernel = single("accept", &files, Vec::new(), problem, |host| {
+        return single("accept", &files, Vec::new(), problem, |host| {
             let (iteration, world, mut step) = (host.read(ITERATION)?, host.world(), host.write(STEP)?);
             (step[0], step[1]) = (world.dt, 1.0);
-            let mut report = host.write(UNSETTLED_STEPS)?;
             if iteration[0] == 0.0 {
-                if report[0] == 0 {
-                    report[1] = world.step;
-                }
-                report[0] += 1;
+                counted(&mut step, world.step);
             }
             Ok(())
-        })?;
-        let sizes = [kernel.sizes, vec![(UNSETTLED_STEPS.name.into(), 2)]].concat();
-        return Ok(Kernel { sizes, ..kernel });
+        });
     }
     let (unit, noise) = (problem.dt, noise(&problem.machine));
     let files = [crate::shader!("integrators/radau/iteration.wgsl"), crate::shader!("integrators/radau/decide.wgsl")];
@@ -210,13 +205,25 @@ pub fn decide(tolerance: f64, problem: &Problem) -> Result<Kernel, Error> {
             step[2] = unit / (longer * world.dt);
         }
         (step[0], step[1]) = (world.dt, f64::from(u8::from(accepted)));
-        if !accepted {
+        if accepted {
+            clock[10] = clock[10].min(clock[2]);
+            clock[11] = clock[11].max(clock[2]);
+        } else {
+            counted(&mut step, world.step);
             clock[12 + reason as usize] -= 1;
             clock[2] = 0;
             host.set_world(World { dt: 0.0, ..world });
         }
         Ok(())
     })
+}
+
+/// Counts a step that did not settle, or is tried again.
+fn counted(words: &mut [f64], step: u32) {
+    if words[3] == 0.0 {
+        words[4] = step.into();
+    }
+    words[3] += 1.0;
 }
 
 /// The end of the step, or its start again.

@@ -6,7 +6,7 @@ use crate::error::Error;
 use crate::kernel::{ALARM, ALARM_WORDS, Kernel, Shader, World};
 
 /// The number of steps between two checks of the growth of speeds.
-const WINDOW: u32 = 16;
+pub const WINDOW: u32 = 16;
 
 /// Its name in a plan, and in its shader.
 pub const NAME: &str = "tick";

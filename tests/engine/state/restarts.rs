@@ -71,6 +71,9 @@ pub(super) fn compare<B: Backend>(
     precision: Precision,
 ) -> Result<(), String> {
     let fail = |error: Error| error.to_string();
+    // Two words of single precision need a file of double precision.
+    let two_words = make().integrator.precision() != motes::kernel::Precision::Single;
+    let precision = if two_words { Precision::Double } else { precision };
     let mut whole = on(&make()).map_err(fail)?;
     whole.step(FIRST).map_err(fail)?;
     let middle = block_on(whole.snapshot()).map_err(fail)?;

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use crate::error::Error;
-use crate::integrators::verbs::tick::grown;
+use crate::integrators::verbs::tick::{WINDOW, grown};
 use crate::kernel::{
     ALARM, ALARM_WORDS, Host, Kernel, Problem, STEP_CLOCK, STEP_CLOCK_WORDS, Shader, TICKS, World, time,
 };
@@ -24,7 +24,8 @@ pub fn at(factor: f64, problem: &Problem) -> Result<Kernel, Error> {
 /// Counts a completed step.
 pub fn tick(problem: &Problem) -> Result<Kernel, Error> {
     let shader = Shader::join(&[crate::shader!("world.wgsl"), crate::shader!("integrators/tick_adaptive.wgsl")])?;
-    let unit = problem.dt;
+    let (unit, watches) = (problem.dt, !problem.estimates_error);
+    let window = if watches { WINDOW } else { u32::MAX };
     let reference = move |host: &Host| {
         let (clock, mut words) = (host.world(), host.write(STEP_CLOCK)?);
         let [whole, rest, ticks, ..] = &mut words[..] else { return Ok(()) };
@@ -33,11 +34,14 @@ pub fn tick(problem: &Problem) -> Result<Kernel, Error> {
             (*whole, *rest) = (*whole + all / TICKS, all % TICKS);
             let (step, time) = (clock.step + 1, (f64::from(*whole) + f64::from(*rest) / f64::from(TICKS)) * unit);
             host.set_world(World { time, step, ..clock });
-            grown(&mut host.write(ALARM)?, step);
+            if watches {
+                grown(&mut host.write(ALARM)?, step);
+            }
         }
         Ok(())
     };
-    let kernel = Kernel::new("tick", shader, vec![("UNIT", unit)], 1, Arc::new(reference));
+    let kernel =
+        Kernel::new("tick", shader, vec![("UNIT", unit), ("WINDOW", f64::from(window))], 1, Arc::new(reference));
     let sizes = vec![(ALARM.name.into(), ALARM_WORDS as u64), (STEP_CLOCK.name.into(), STEP_CLOCK_WORDS as u64)];
     Ok(Kernel { sizes, ..kernel })
 }
