@@ -201,7 +201,7 @@ pub fn all(device: &Device, stages: &mut Vec<Stage>) {
         // The shortest and the longest so far: longer, shorter, neither.
         (clock[10], clock[11]) = [(16_000_000, 1), (3, 16_000_000)][case % 2];
         let step = [0.31, 1.0, 2.5, [0.0, 3.0][case / 2 % 2], 9.0];
-        let case_of = Case { step: &step, largest: [0.1, 2.3, error], iteration: [done, 12.0, 0.5], dt, ..USUAL };
+        let case_of = Case { step: &step, largest: [0.1, 2.3, error], iteration: [done, 12.0, 0.5], dt };
         stages.push(staged(
             &simulation,
             &format!("decide {case}"),
@@ -216,7 +216,7 @@ pub fn all(device: &Device, stages: &mut Vec<Stage>) {
     stages.push(staged(&simulation, "decide amid noise", named(&adaptive, "decide"), &noisy, &clock, |_| ()));
     let criterion = named(&adaptive, "error criterion");
     stages.push(staged(&simulation, "error criterion", criterion, &USUAL, &clock, |simulation| {
-        put(simulation, LARGEST_CRITERION, &[Vec4::splat(7.0)])
+        put(simulation, LARGEST_CRITERION, &[Vec4::splat(7.0)]);
     }));
     in_two_words(&simulation, stages);
 }
@@ -239,9 +239,11 @@ fn in_two_words(simulation: &Rc<RefCell<Simulation<Gpu>>>, stages: &mut Vec<Stag
     ] {
         let mut kernel = named(&kernels(is_adaptive, Precision::Compensated, SMALL), name);
         let h = kernel.passes[0].constants.iter().find(|(name, _)| *name == "H").expect("a part of the step").1;
+        #[expect(clippy::cast_possible_truncation, reason = "as the device holds it")]
+        let single = h as f32;
         for (name, value) in &mut kernel.passes[0].constants {
             match *name {
-                "REST" => *value = h * SMALL - f64::from(h as f32 * short),
+                "REST" => *value = h * SMALL - f64::from(single * short),
                 "UNIT" => *value = f64::from(short),
                 "UNIT_REST" => *value = SMALL - f64::from(short),
                 _ => {}
@@ -259,7 +261,7 @@ fn in_two_words(simulation: &Rc<RefCell<Simulation<Gpu>>>, stages: &mut Vec<Stag
             let (mut start, low) = (vectors(6 * FEW, 1.0), vectors(2 * FEW, 1e-3));
             for (i, start) in start.chunks_exact_mut(6).enumerate() {
                 start[1] *= 1e5;
-                start[0] -= h as f32 * dt * start[1];
+                start[0] -= single * dt * start[1];
                 start[0].w = 1.5;
                 start[1].w = 0.3;
                 start[2] *= 1e-3;

@@ -260,11 +260,14 @@ pub fn fill(simulation: &mut Simulation<Gpu>, plan: &Plan) {
     }
 }
 
+/// Sets up some stages.
+type Group<'a> = &'a dyn Fn(&mut Vec<Stage>);
+
 /// All stages, those that cost the least first.
 pub fn all(shared: &Shared) -> Vec<Stage> {
     let few = |limits: &mut wgpu::Limits| limits.max_compute_workgroups_per_dimension = 4;
     let device = pollster::block_on(support::limited(shared, few));
-    let groups: [(&str, &dyn Fn(&mut Vec<Stage>)); 36] = [
+    let groups: [(&str, Group<'_>); 36] = [
         ("integrators", &|all| integrators(&device, all)),
         ("repeat", &|all| crate::repeat::all(&device, all)),
         ("implicit", &|all| crate::implicit::all(&device, all)),

@@ -9,7 +9,7 @@ pub const NODE: [f64; 8] = [
     0.0,
     0.056_262_560_536_922_15,
     0.180_240_691_736_892_36,
-    0.352_624_717_113_169_64,
+    0.352_624_717_113_169_6,
     0.547_153_626_330_555_4,
     0.734_210_177_215_410_5,
     0.885_320_946_839_095_8,
@@ -58,9 +58,9 @@ pub fn predicted(differences: &[DVec3; NODES as usize], start: f64, ratio: f64) 
         scale *= ratio;
         *power *= scale;
     }
-    for k in 1..last {
+    for (k, node) in NODE.iter().enumerate().take(last).skip(1) {
         for j in (k..last).rev() {
-            power[j] += NODE[k] * power[j + 1];
+            power[j] += node * power[j + 1];
         }
     }
     let mut all = [DVec3::ZERO; NODES as usize];
@@ -107,10 +107,10 @@ mod tests {
             }
             let terms = g.map(DVec4::truncate);
             // From t = a on in parts of s: the differences of ((a + s h)ⁿ − aⁿ).
-            for (a, s) in [(1.0, 0.7), (0.0, 0.3), (1.0, 2.5)] {
+            for (a, s) in [(1.0_f64, 0.7), (0.0, 0.3), (1.0, 2.5)] {
                 let mut want = [DVec4::ZERO; NODES as usize];
                 for n in 1..NODE.len() {
-                    let value = f64::from(a + s * NODE[n]).powi(power) - f64::from(a).powi(power);
+                    let value = (a + s * NODE[n]).powi(power) - a.powi(power);
                     want[n - 1] = difference(DVec3::splat(value), &want, n).extend(0.0);
                 }
                 for (found, want) in predicted(&terms, a, s).iter().zip(want) {
