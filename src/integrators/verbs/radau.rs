@@ -101,7 +101,8 @@ pub fn begin(problem: &Problem) -> Result<Kernel, Error> {
                     let own = &mut differences[i * NODES as usize..][..NODES as usize];
                     let mut before = [DVec3::ZERO; NODES as usize];
                     before.iter_mut().zip(own.iter()).for_each(|(before, own)| *before = own.truncate());
-                    let next = if known { predicted(&before, step[1], dt / step[0]) } else { [DVec3::ZERO; 7] };
+                    let next =
+                        if known { predicted(&before, step[1], dt / step[0]) } else { [DVec3::ZERO; NODES as usize] };
                     own.iter_mut().zip(next).for_each(|(own, next)| *own = next.extend(0.0));
                 }
             }

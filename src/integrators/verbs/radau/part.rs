@@ -111,12 +111,6 @@ impl Part {
         let (mut x, mut v) = (host.write(POSITION)?, host.write(VELOCITY)?);
         let mut low = if self.is_double { Some((host.write(POSITION_LOW)?, host.write(VELOCITY_LOW)?)) } else { None };
         for (i, its) in start.chunks_exact(SLOTS).enumerate() {
-            let a = its[START_ACCELERATION].truncate();
-            let (mut drift, mut kick) = (0.5 * self.h * self.h * a, self.h * a);
-            for (k, g) in differences[i * NODES as usize..][..NODES as usize].iter().enumerate() {
-                drift += self.twice[k] * g.truncate();
-                kick += self.once[k] * g.truncate();
-            }
             let v0 = its[START_VELOCITY];
             if back {
                 (x[i], v[i]) = (its[0], v0);
@@ -124,6 +118,12 @@ impl Part {
                     (x_low[i], v_low[i]) = (its[LOW_POSITION], its[LOW_VELOCITY]);
                 }
                 continue;
+            }
+            let a = its[START_ACCELERATION].truncate();
+            let (mut drift, mut kick) = (0.5 * self.h * self.h * a, self.h * a);
+            for (k, g) in differences[i * NODES as usize..][..NODES as usize].iter().enumerate() {
+                drift += self.twice[k] * g.truncate();
+                kick += self.once[k] * g.truncate();
             }
             let lows = if low.is_some() { [its[LOW_POSITION], its[LOW_VELOCITY]] } else { [DVec4::ZERO; 2] };
             let moved = lows[0].truncate() + self.h * whole * (v0 + lows[1]).truncate() + dt * dt * drift;
