@@ -121,6 +121,17 @@ pub enum Error {
         /// The lowest id of such a particle.
         particle: u32,
     },
+    /// A body has merged with others until it is larger than the range in which collisions are searched. Remedy: a larger range, or all pairs.
+    #[error(
+        "particle {particle} has grown by mergers beyond the collision_radius {largest}, half of the `range` of collide: bodies that touch would be \
+         missed; choose a larger range, or over = \"pairs\""
+    )]
+    Outgrown {
+        /// The lowest id of such a body.
+        particle: u32,
+        /// The largest radius for that range \[length\].
+        largest: f64,
+    },
     /// The driver has ended the loops of a user's law before they were complete, so that forces are wrong. Remedy: in that law,
     /// or another driver.
     #[error(
@@ -209,6 +220,7 @@ impl Error {
             | Self::CutShort { .. }
             | Self::Endless { .. }
             | Self::ListFull { .. }
+            | Self::Outgrown { .. }
             | Self::Overlong { .. } => 6,
             Self::Lost(_) | Self::OutOfMemory(_) | Self::Timeout { .. } | Self::Threads(_) | Self::Device(_) => 7,
             Self::Output { .. } => 8,

@@ -155,7 +155,7 @@ impl<B: Backend> Simulation<B> {
         let carried = restart::carried(&plans, store.columns(), count);
         let extent = setup.extent();
         let ties = Ties::of(state);
-        let (has_inactive, breaks) = (state.has_inactive(), setup.breaks());
+        let (has_inactive, breaks) = (setup.has_inactive(), setup.breaks());
         let (begun, begins) = (false, setup.begins(&problem)?);
         let (dt, steps, adaptive_step) = (setup.dt, state.step, setup.integrator.adaptive_step());
         let mut made = Self {

@@ -250,6 +250,10 @@ pub struct Properties {
     pub sets_velocities: bool,
     /// Whether it keeps pedestrians on the floor of a plan.
     pub keeps_in: bool,
+    /// Whether it changes bodies that collide, at the end of a step.
+    pub collides: bool,
+    /// Whether it removes particles.
+    pub removes: bool,
     /// Whether it breaks bonds.
     pub breaks_bonds: bool,
     /// Whether it is evaluated after all others, wherever it is in the scene.

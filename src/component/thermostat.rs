@@ -42,7 +42,7 @@ pub(crate) fn decayed(x: f64) -> f64 {
 pub(crate) fn serves(name: &str, removed: f64, problem: &Problem) -> Result<(), Error> {
     let refuse = |why: &str| Err(Error::Scene(format!("{name} {why}")));
     if problem.has_inactive {
-        return refuse("regulates the same particles all the time: leave out emitters and drains");
+        return refuse("regulates the same particles all the time: leave out emitters, drains and mergers");
     }
     if !problem.network.rods.is_empty() {
         return refuse("counts three degrees of freedom of a particle, and rods take some of them: leave out the rods");

@@ -33,10 +33,10 @@ pub const HOME: Field<Vec4> = Field::new("home");
 /// current 16 steps; 6: that of the previous 16; 7: how many times in a row it has more than doubled. 8: the mark of a user's law
 /// with loops that the driver has ended early; 9: that of one with loops without end; 10: the driver folds compensated sums; 11: the complement
 /// of the highest word of a pair's history that a law names beyond its slots; 12 and 13: after how many steps a bond is first seen to be longer than its law admits, and the lowest
-/// particle with one then.
+/// particle with one then. 14: the lowest id of a body that has grown beyond the range in which its collisions are searched.
 pub const ALARM: Field<u32> = Field::new("alarm");
 /// The words of the alarm.
-pub const ALARM_WORDS: usize = 14;
+pub const ALARM_WORDS: usize = 15;
 /// The alarm without any failure.
 pub const QUIET: [u32; ALARM_WORDS] = [
     u32::MAX,
@@ -47,6 +47,7 @@ pub const QUIET: [u32; ALARM_WORDS] = [
     0,
     0,
     0,
+    u32::MAX,
     u32::MAX,
     u32::MAX,
     u32::MAX,

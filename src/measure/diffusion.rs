@@ -30,9 +30,9 @@ pub const MEASURE: Measure = Measure {
     usual: |_| Ok(None),
     begin: |setup, settings| {
         let state = &setup.state;
-        if setup.state.has_inactive() {
+        if setup.has_inactive() {
             return Err(Error::Scene(
-                "the measure `diffusion` follows particles from the start to the end: leave out emitters and drains, or the measure".to_owned(),
+                "the measure `diffusion` follows particles from the start to the end: leave out emitters, drains and mergers, or the measure".to_owned(),
             ));
         }
         let columns = setup.columns()?;

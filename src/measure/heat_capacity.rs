@@ -31,8 +31,8 @@ pub const MEASURE: Measure = Measure {
     times: Times::Chosen,
     usual: |_| Ok(None),
     begin: |setup, settings| {
-        if setup.state.has_inactive() {
-            return refuse("needs the same particles all the time: leave out emitters and drains");
+        if setup.has_inactive() {
+            return refuse("needs the same particles all the time: leave out emitters, drains and mergers");
         }
         if !setup.state.links.rods.is_empty() {
             return refuse("counts degrees of freedom, and rods take some of them: choose springs");

@@ -18,7 +18,7 @@ pub const MEASURE: Measure = Measure {
         ("mass", "the mass of all [mass]"),
     ],
     times: Times::Chosen,
-    usual: |setup| Ok(setup.state.has_inactive().then(Settings::default)),
+    usual: |setup| Ok(setup.has_inactive().then(Settings::default)),
     begin: |_, _| Ok(Box::new(Counts::default())),
 };
 

@@ -33,7 +33,7 @@ impl<B: Backend> Simulation<B> {
     ///
     /// # Errors
     /// [`Error::NotFinite`] with the first particle and step, [`Error::Runaway`] with one that is too fast and the step,
-    /// [`Error::TooManyNeighbors`], [`Error::CutShort`], [`Error::Endless`], [`Error::TooShort`], or what reading says.
+    /// [`Error::TooManyNeighbors`], [`Error::CutShort`], [`Error::Endless`], [`Error::TooShort`], [`Error::Outgrown`], or what reading says.
     pub async fn check(&mut self) -> Result<(), Error> {
         let mut alarm = self.alarm().await?;
         let [_, _, _, _, _, _, _, _, cut, endless, ..] = alarm;
@@ -43,7 +43,7 @@ impl<B: Backend> Simulation<B> {
         }
         let [done, .., fast, particle] = [alarm[0], alarm[1], alarm[3], alarm[4]];
         // A runaway leads to numbers that are not finite in the end: the first cause is reported.
-        let [_, _, _, _, _, _, _, _, cut, endless, _, _, long, _] = alarm;
+        let [_, _, _, _, _, _, _, _, cut, endless, _, _, long, ..] = alarm;
         if fast != u32::MAX && fast <= done && long == u32::MAX && cut == u32::MAX && endless == u32::MAX {
             let particle = self.named(particle);
             return Err(Error::Runaway { particle, step: u64::from(fast.saturating_sub(1)) });
@@ -89,9 +89,15 @@ impl<B: Backend> Simulation<B> {
         let longest = laws.filter_map(|law| law.longest).fold(f64::INFINITY, f64::min);
         Error::Overlong { particle, bond, longest, step: u64::from(step) }
     }
+    /// The error of a body that has outgrown the search for its collisions.
+    fn outgrown(&self, row: u32) -> Error {
+        let properties = self.setup.forces.iter().map(|force| force.properties()).filter(|one| one.collides);
+        let limits = properties.flat_map(|one| one.largest).map(|limit| limit.value);
+        Error::Outgrown { particle: self.named(row), largest: limits.fold(f64::INFINITY, f64::min) }
+    }
     /// Whether laws were evaluated completely, all numbers are finite, and searches have found all particles.
     pub(super) fn sound(&self, alarm: &[u32; ALARM_WORDS]) -> Result<(), Error> {
-        let [done, particle, crowded, _, _, _, _, _, cut, endless, folded, beyond, long, end] = *alarm;
+        let [done, particle, crowded, _, _, _, _, _, cut, endless, folded, beyond, long, end, grown] = *alarm;
         if folded != u32::MAX {
             return Err(Error::Device(format!(
                 "the driver folds compensated sums, so that precision = \"{}\" would keep no more digits than single: choose precision = \
@@ -113,6 +119,9 @@ impl<B: Backend> Simulation<B> {
         }
         if long != u32::MAX {
             return Err(self.overlong(end, long));
+        }
+        if grown != u32::MAX {
+            return Err(self.outgrown(grown));
         }
         if done != u32::MAX {
             // The first check comes before the first step, every other one after a completed step.

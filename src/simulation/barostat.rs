@@ -129,12 +129,12 @@ impl Setup {
         }
         let why = if !state.held.is_empty() {
             "moves all particles with the box: leave out those that are fixed or move as prescribed"
-        } else if state.has_inactive()
+        } else if self.has_inactive()
             || !state.births.is_empty()
             || !state.drains.is_empty()
             || state.capacity.is_some()
         {
-            "keeps the same particles all the time: leave out emitters and drains"
+            "keeps the same particles all the time: leave out emitters, drains and mergers"
         } else if !state.links.rods.is_empty() {
             "stretches all distances, and rods keep theirs: leave out the rods"
         } else if self.integrator.precision().is_double() {

@@ -3,6 +3,8 @@
 use crate::error::Error;
 use crate::forces::{Component, Over};
 use crate::integrators::Integrator;
+use crate::interactions::gravity::SOFTENING_LENGTH;
+use crate::kernel::{Column, Role, Shape};
 use crate::state::State;
 
 /// Checks whether forces and an integrator are compatible with inactive particles. Such a particle is in no cell list, has no mass, and its
@@ -12,10 +14,14 @@ use crate::state::State;
 /// # Errors
 /// [`Error::Scene`] that names the component that is not compatible.
 pub fn serves(particles: &State, forces: &[Box<dyn Component>], integrator: &dyn Integrator) -> Result<(), Error> {
-    if !particles.has_inactive() {
+    let refuse = |text: String| Err(Error::Scene(text));
+    let merges = forces.iter().any(|force| force.properties().removes);
+    if !particles.has_inactive() && !merges {
         return Ok(());
     }
-    let refuse = |text: String| Err(Error::Scene(text));
+    if merges {
+        serves_mergers(forces, integrator)?;
+    }
     if integrator.is_implicit() {
         return refuse(
             "implicit integrators cannot be used where particles are spawned or removed: their equations contain all particles. Choose leapfrog".to_owned(),
@@ -35,10 +41,41 @@ pub fn serves(particles: &State, forces: &[Box<dyn Component>], integrator: &dyn
                 .to_owned(),
         );
     }
+    if merges && tied.next().is_some() {
+        return refuse(
+            "collide merges particles, and some are linked: links cannot lose an end. Set outcome = \"bounce\", or remove the links"
+                .to_owned(),
+        );
+    }
     match tied.find(idle) {
         Some(id) => refuse(format!("particle {id} is linked, and is not active from the start: link other particles")),
         None => Ok(()),
     }
+}
+
+/// Refuses what a body that has merged would have of one of the two alone.
+fn serves_mergers(forces: &[Box<dyn Component>], integrator: &dyn Integrator) -> Result<(), Error> {
+    let refuse = |text: String| Err(Error::Scene(text));
+    let of_each = |column: &Column| column.role == Role::State && column.shape == Shape::Particle;
+    for force in forces.iter().filter(|force| !force.properties().removes) {
+        // A softening is chosen, not conserved.
+        if let Some(column) = force.columns().into_iter().find(|one| of_each(one) && one.name != SOFTENING_LENGTH) {
+            return refuse(format!(
+                "collide merges masses, momenta and volumes, and a body would have the `{}` of {} of one of the two alone: set outcome = \"bounce\", or leave \
+                 one of both out",
+                column.name,
+                force.name()
+            ));
+        }
+    }
+    if let Some(column) = integrator.columns().into_iter().find(of_each) {
+        return refuse(format!(
+            "collide merges bodies, and {} keeps the `{}` of each for the next step: choose leapfrog",
+            integrator.name(),
+            column.name
+        ));
+    }
+    Ok(())
 }
 
 /// Refuses laws that treat inactive particles as active ones.

@@ -202,7 +202,7 @@ impl Setup {
             .of_species(&self.state.species()[..rows])
             .tied(&self.state.all_links(), &self.state.held)
             .moved(&self.state.motions, self.dt)
-            .with_life(&self.state.births, &self.state.drains, self.state.has_inactive())
+            .with_life(&self.state.births, &self.state.drains, self.has_inactive())
             .on_floor(self.state.floor_plan.clone())
             .with_ids(self.state.has_ids() || self.state.capacity.is_some())
             .breaking(self.breaks())
@@ -389,6 +389,15 @@ impl Setup {
             !laws.is_empty() && laws.iter().all(|law| matches!(law.over, Over::Each))
         };
         self.forces.iter().all(|force| alone(force.as_ref()))
+    }
+    /// Whether some particles are inactive at some time.
+    #[must_use]
+    pub fn has_inactive(&self) -> bool {
+        self.state.has_inactive() || self.removes()
+    }
+    /// Whether a component removes particles.
+    pub(super) fn removes(&self) -> bool {
+        self.forces.iter().any(|force| force.properties().removes)
     }
     /// Whether links may break during the run.
     #[must_use]

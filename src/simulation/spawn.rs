@@ -68,7 +68,7 @@ impl<B: Backend> Simulation<B> {
         let refuse = |text: String| Err(Error::Scene(text));
         self.settle().await?;
         let mut known = BTreeSet::new();
-        let removed = if self.ties.drains().is_empty() { Vec::new() } else { self.life().await? };
+        let removed = if self.removes() { self.life().await? } else { Vec::new() };
         let bound = self.ties.bound();
         let mut rows = Vec::new();
         for id in ids {
@@ -159,9 +159,13 @@ impl<B: Backend> Simulation<B> {
         }
         boundary::holds(&setup.bounds, new.position(), new.velocity())
     }
-    /// Frees the rows of particles that drains have removed, where there are not enough.
+    /// Whether steps remove particles.
+    fn removes(&self) -> bool {
+        !self.ties.drains().is_empty() || self.setup.removes()
+    }
+    /// Frees the rows of particles that steps have removed, where there are not enough.
     async fn reclaim(&mut self) -> Result<(), Error> {
-        if self.ties.drains().is_empty() || !self.rows.are_open() {
+        if !self.removes() || !self.rows.are_open() {
             return Ok(());
         }
         let life = self.life().await?;

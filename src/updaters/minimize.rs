@@ -194,7 +194,7 @@ impl Component for Minimize {
         }
         let refuse = |why: &str| Err(Error::Scene(format!("minimize moves {why}")));
         if problem.has_inactive {
-            return refuse("the same particles all the time: leave out emitters and drains");
+            return refuse("the same particles all the time: leave out emitters, drains and mergers");
         }
         if !problem.network.rods.is_empty() {
             return refuse("particles along their forces, and rods have others: leave out the rods, or choose springs");

@@ -14,5 +14,6 @@ components! {
     berendsen_pressure: BerendsenPressure, "a barostat: the pressure relaxes to a given one; for equilibration only (Berendsen et al. 1984)";
     cell_rescaling: CellRescaling, "a barostat: the volume of the box relaxes and fluctuates as it does at a given pressure (Bernetti & Bussi 2020)";
     minimize: Minimize, "particles move to a minimum of the potential energy and rest there: FIRE (Bitzek et al. 2006)";
+    collide: Collide, "bodies that touch merge, or bounce";
     tear: Tear, "springs that are stretched too far break permanently";
 }

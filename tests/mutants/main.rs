@@ -8,6 +8,7 @@ mod births;
 mod blocks;
 mod boundary;
 mod bounded;
+mod collide;
 mod columns;
 mod crowds;
 mod curious;
@@ -227,6 +228,7 @@ fn every_mutant_is_noticed() {
         fluids::EQUIVALENT,
         pairs::EQUIVALENT,
         repeat::EQUIVALENT,
+        collide::EQUIVALENT,
         columns::EQUIVALENT,
         grains::EQUIVALENT,
         matter::EQUIVALENT,

@@ -267,7 +267,7 @@ type Group<'a> = &'a dyn Fn(&mut Vec<Stage>);
 pub fn all(shared: &Shared) -> Vec<Stage> {
     let few = |limits: &mut wgpu::Limits| limits.max_compute_workgroups_per_dimension = 4;
     let device = pollster::block_on(support::limited(shared, few));
-    let groups: [(&str, Group<'_>); 36] = [
+    let groups: [(&str, Group<'_>); 37] = [
         ("integrators", &|all| integrators(&device, all)),
         ("repeat", &|all| crate::repeat::all(&device, all)),
         ("implicit", &|all| crate::implicit::all(&device, all)),
@@ -283,6 +283,7 @@ pub fn all(shared: &Shared) -> Vec<Stage> {
         ("laws_corners", &|all| laws::corners(&device, all)),
         ("laws_overlong", &|all| laws::overlong(&device, all)),
         ("laws_virials", &|all| laws::virials(&device, all)),
+        ("collide", &|all| crate::collide::all(&device, all)),
         ("columns", &|all| columns::all(&device, all)),
         ("matter", &|all| crate::matter::all(shared, &device, all)),
         ("crowds", &|all| crate::crowds::all(&device, all)),

@@ -10,6 +10,7 @@ mod bits;
 mod blocks;
 mod bodies;
 mod boundary;
+mod collisions;
 mod crowds;
 mod dfsph;
 mod ewald;

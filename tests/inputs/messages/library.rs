@@ -114,6 +114,7 @@ fn of_runs() -> Vec<(&'static str, Option<Error>)> {
             remedy: motes::kernel::Reason::Error.remedy(),
         },
         Error::TooManyNeighbors { particle: 7 },
+        Error::Outgrown { particle: 7, largest: 0.25 },
         Error::CutShort { law: law() },
         Error::Endless { law: law() },
         Error::ListFull { particle: 7, longest: 900, capacity: 512, reach: 1.2 },

@@ -1,0 +1,34 @@
+// Two bodies that collide become one, with the mass, the momentum and the centre of mass of both: the heavier one, or of equal ones that of the
+// lower row; a fixed one stays where it is. Its acceleration is that of the centre of mass: what the two do to each other cancels. The other is removed.
+@group(0) @binding(0) var<uniform> world: World;
+@group(1) @binding(0) var<storage, read_write> position: array<vec4f>;     // xyz, mass
+@group(1) @binding(1) var<storage, read_write> velocity: array<vec4f>;     // xyz, radius in pictures
+@group(1) @binding(2) var<storage, read_write> acceleration: array<vec4f>; // xyz, potential
+@group(1) @binding(8) var<storage, read_write> life: array<u32>;           // 0 pending, 1 active, 2 removed
+
+const WORKGROUP: u32 = 64u;
+
+fn stays(i: u32, j: u32) -> bool {
+    if is_held(i) || is_held(j) { return is_held(i); }
+    let mine = position[i].w;
+    let its = position[j].w;
+    return mine > its || (mine == its && i < j);
+}
+
+@compute @workgroup_size(WORKGROUP)
+fn collide_merge(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u, @builtin(local_invocation_index) lane: u32) {
+    let i = folded(group, groups) * WORKGROUP + lane;
+    if i >= world.count { return; }
+    let j = collided(i);
+    if j == NONE { return; }
+    if !stays(i, j) { return; }
+    let part = weight(i, j);
+    approach(i, j, part);
+    acceleration[i] += part * (acceleration[j] - acceleration[i]);
+    position[i].w += position[j].w;
+    velocity[i].w = of_both(velocity[i].w, velocity[j].w);
+    life[j] = 2u;
+    position[j].w = 0.0;
+    velocity[j] = vec4f(vec3f(), velocity[j].w);
+    acceleration[j] = vec4f();
+}
