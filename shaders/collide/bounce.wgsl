@@ -15,7 +15,7 @@ fn collide_bounce(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) 
     if j == NONE || j < i { return; }
     let r = apart(i, j);
     let n = r / length(r);
-    let push = (1.0 + RESTITUTION) * dot(velocity[j].xyz - velocity[i].xyz, n) * n;
+    let push = (1.0 + RESTITUTION) * dot(relative(i, j), n) * n;
     kick(i, weight(i, j) * push);
     kick(j, -weight(j, i) * push);
 }

@@ -6,6 +6,10 @@ fn apart(i: u32, j: u32) -> vec3f {
     return nearest_image(hidden(position[j].xyz - position[i].xyz)) + (position_low[j].xyz - position_low[i].xyz);
 }
 
+fn relative(i: u32, j: u32) -> vec3f {
+    return hidden(velocity[j].xyz - velocity[i].xyz) + (velocity_low[j].xyz - velocity_low[i].xyz);
+}
+
 fn kick(i: u32, change: vec3f) {
     let v = two_sum(velocity[i].xyz, change);
     let next = fast_two_sum(v.high, v.low + velocity_low[i].xyz);

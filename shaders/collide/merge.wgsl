@@ -1,5 +1,6 @@
-// Two bodies that collide become one, with the mass, the momentum and the centre of mass of both: the heavier one, or of equal ones that of the
-// lower row; a fixed one stays where it is. Its acceleration is that of the centre of mass: what the two do to each other cancels. The other is removed.
+// Two bodies that collide become one (as in Rein & Liu, A&A 537, A128, 2012), with the mass, the momentum and the centre of mass of both: the heavier
+// one, or of equal ones that of the lower row; a fixed one stays where it is. Its acceleration is that of the centre of mass: what the two do to
+// each other cancels. The other is removed.
 @group(0) @binding(0) var<uniform> world: World;
 @group(1) @binding(0) var<storage, read_write> position: array<vec4f>;     // xyz, mass
 @group(1) @binding(1) var<storage, read_write> velocity: array<vec4f>;     // xyz, radius in pictures

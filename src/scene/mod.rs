@@ -355,10 +355,11 @@ fn read(sections: &[(&'static str, Table<'_>)], files: &Files, options: &Options
 
     // The forces depend on whether particles are spawned or removed.
     let integrator = simulation.made();
-    if let (Some(first), Err(why)) =
-        (all("emitter").chain(all("drain")).next(), crate::simulation::serves(&particles, &forces, integrator.as_ref()))
-    {
-        report.push(Fault::at(first.place, why.to_string()));
+    let merges =
+        of_forces.iter().zip(&forces).find(|(_, force)| force.properties().removes).map(|(table, _)| table.place);
+    let first = all("emitter").chain(all("drain")).map(|table| table.place).next().or(merges);
+    if let (Some(first), Err(why)) = (first, crate::simulation::serves(&particles, &forces, integrator.as_ref())) {
+        report.push(Fault::at(first, why.to_string()));
     }
     if let (Some(entry), false) =
         (one("simulation").and_then(|table| table.get("integrator")), integrator.advances_columns())

@@ -93,11 +93,11 @@ typed! {
     }
     /// Bodies that touch merge, or bounce.
     Collide "collide" collide() {
-        /// What becomes of two bodies that collide: one body, or two that part.
+        /// What becomes of two bodies that collide: one body, or two that part: merge, bounce.
         outcome: Cow<'static, str>,
         /// Outcome = "bounce": the speed at which they part, over that at which they approach; 1: no energy is lost.
         restitution: f64,
-        /// How collisions are found: among all pairs, or by a cell list, among those in `range`.
+        /// How collisions are found: among all pairs, or by a cell list, among those in `range`: pairs, near.
         over: Cow<'static, str>,
         /// Over = "near": the largest distance of the centres of bodies that touch; it must be given, and no radius may exceed half of it \[length\].
         range: f64,

@@ -104,6 +104,7 @@ fn methods() -> String {
         ("Interactions", "interactions"),
         ("Constraints", "constraints"),
         ("Updaters", "updaters"),
+        ("Collisions", "collide"),
         ("Parts of thermostats", "thermostat"),
         ("Fluids", "sph"),
         ("DFSPH", "sph/dfsph"),

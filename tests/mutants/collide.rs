@@ -6,8 +6,8 @@ use std::rc::Rc;
 use glam::{DVec3, Vec4};
 use motes::integrators::{Adaptive, Precise};
 use motes::kernel::{
-    AdaptiveStep, Array, Backend, Column, Kernel, Kind, LIFE, Machine, POSITION_LOW, Plan, Precision, STEP_CLOCK,
-    VELOCITY_LOW, World,
+    ACCELERATION, AdaptiveStep, Array, Backend, Column, Kernel, Kind, LIFE, Machine, POSITION_LOW, Plan, Precision,
+    STEP_CLOCK, VELOCITY_LOW, World,
 };
 use motes::motion::{Held, Hold};
 use motes::settings::Value;
@@ -30,6 +30,13 @@ pub const EQUIVALENT: &[Equivalent] = &[
     same("collide/bounce", "if j == NONE", "<", ">", EACH),
     same("collide/merge", "return mine > its", "<", "<=", EACH),
     same("collide/pair", "if partner > 0u", ">", ">=", BEHIND),
+    same(
+        "collide/volume",
+        "if large <= 0.0",
+        "<=",
+        "<",
+        "tests/physics/collisions has bodies without a size in pictures",
+    ),
     same("updaters/collide", "if MERGES && approach", ">", ">=", "then the closest approach is now"),
     same("updaters/collide", "let first =", "<", "<=", "no partner is met twice"),
 ];
@@ -44,7 +51,7 @@ fn crowd(seed: u64, fixed: bool, apart: bool) -> State {
         let velocity = if k % 9 == 4 { DVec3::ZERO } else { single(random.vector()) };
         state.push(single(random.vector()), velocity, f64::from(mass as f32), 0.03 * f64::from((k % 3) as u32));
     }
-    // Some stand in rows of equal distances, unless these are to be told apart.
+    // Some stand in rows of equal distances, unless no two distances may be equal.
     for k in (0..if apart { 0 } else { 60 }).step_by(3) {
         for n in 0..3 {
             state.position_mut()[k + n] = DVec3::new(0.03125 * n as f64 - 0.75, 0.0625 * k as f64 - 2.0, 3.0);
@@ -85,8 +92,10 @@ fn step(device: &Device, name: &str, machine: Machine, setup: &Setup, stages: &m
     if setup.has_inactive() {
         put(&mut simulation, LIFE, &(0..FEW).map(|k| [1, 1, 1, 0, 1, 2][(k / 10) % 6]).collect::<Vec<u32>>());
     }
+    let mut random = Random::new(5);
+    let words: Vec<Vec4> = (0..FEW).map(|_| random.vector().as_vec3().extend(random.narrow())).collect();
+    put(&mut simulation, ACCELERATION, &words);
     if double {
-        let mut random = Random::new(5);
         for field in [POSITION_LOW, VELOCITY_LOW] {
             let words: Vec<Vec4> = (0..FEW).map(|_| (1e-3 * random.vector()).as_vec3().extend(0.0)).collect();
             put(&mut simulation, field, &words);
@@ -96,9 +105,13 @@ fn step(device: &Device, name: &str, machine: Machine, setup: &Setup, stages: &m
         put(&mut simulation, STEP_CLOCK, &[7, 3 << 20, 5 << 21]);
     }
     let clock = pollster::block_on(simulation.backend().world()).expect("a clock");
-    simulation.backend().set_world(World { step: 11, dt: 0.03, ..clock }).expect("a clock");
     let amid = Rc::new(RefCell::new(simulation));
     let mut before = None;
+    // In a step of no length nothing happens.
+    let search = plan.kernels.iter().find(|kernel| kernel.name == "collide").expect("a search").clone();
+    amid.borrow_mut().backend().set_world(World { step: 11, dt: 0.0, ..clock }).expect("a clock");
+    stages.push(Stage::amid(&format!("no step, {name}"), &amid, alone(search)));
+    amid.borrow_mut().backend().set_world(World { step: 11, dt: 0.25, ..clock }).expect("a clock");
     for kernel in &plan.kernels {
         let program = amid.borrow_mut().backend().compile(&alone(kernel.clone())).expect("a program");
         if kernel.name.starts_with("collide") {

@@ -9,8 +9,9 @@ use motes::settings::{Key, Kind, Pair, Settings, Value};
 
 /// Forces of several searches in a row, which take up what those before them left: they have tests of their own, in
 /// `tests/physics/fluids` and `tests/mutants/fluids.rs`. Walls have no laws, and history: `tests/physics/matter` and
-/// `tests/mutants/matter.rs`. Pedestrians on a plan: `tests/physics/crowds` and `tests/mutants/crowds.rs`.
-const OWN: [&str; 5] = ["fluid", "contact_wall", "navigate", "social_wall", "collision_free_speed"];
+/// `tests/mutants/matter.rs`. Pedestrians on a plan: `tests/physics/crowds` and `tests/mutants/crowds.rs`. Bodies with radii: `tests/physics/collisions` and
+/// `tests/mutants/collide.rs`.
+const OWN: [&str; 6] = ["fluid", "contact_wall", "navigate", "social_wall", "collision_free_speed", "collide"];
 
 /// Forces that want other states than a cloud of points: atoms apart, spheres that touch, pedestrians. `tests/physics/matter`,
 /// `tests/physics/molecular`, `tests/physics/crowds`, `tests/mutants/matter.rs` and `tests/mutants/crowds.rs` have these.
