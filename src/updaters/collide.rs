@@ -9,10 +9,11 @@ use super::{Component, Over, Problem, Properties, Stage};
 use crate::component::Largest;
 use crate::error::Error;
 use crate::kernel::{
-    ACCELERATION, ALARM, ALARM_WORDS, Bounds, Column, Field, Host, ID, Kernel, Kind as Element, LIFE, POSITION, POSITION_LOW, Pass, Plan,
+    ACCELERATION, ALARM, ALARM_WORDS, Bounds, Column, Field, Host, ID, Kernel, Kind as Element, LIFE, Name, POSITION, POSITION_LOW, Pass, Plan,
     Reference, Shader, Source, VELOCITY, VELOCITY_LOW, World, time,
 };
 use crate::life::Life;
+use crate::primitives::{Items, Operation, rows};
 use crate::settings::{Key, Kind, Settings, Value};
 use crate::visit::{Law, Outcome, Particle};
 
@@ -26,6 +27,12 @@ pub const KEYS: &[Key] = &[
 
 /// The radius of a body.
 const RADIUS: Field<f32> = Field::new("collision_radius");
+/// The same of an active body, and a number below all radii of another.
+const SIZE: Field<f32> = Field::new("collision_size");
+const GONE: f64 = -1e30;
+/// How far from its place a body may have touched another, and how far any may \[length\].
+const BOUND: Field<glam::Vec4> = Field::new("collision_bound");
+const REACH: Field<glam::Vec4> = Field::new("collision_reach");
 /// The row of the body that comes nearest of those that a body touches, plus 1; 0: none.
 const PARTNER: Field<u32> = Field::new("collision_partner");
 /// The id of the body that has taken up another, plus 1; 0: none.
@@ -67,47 +74,88 @@ impl Collide {
     fn law(&self, problem: &Problem) -> Law {
         let over = self.range.map_or(Over::Pairs, |range| Over::Near { range, of: None });
         let (holding, tables) = problem.holding();
-        // A cell list has active bodies only, and no room for one buffer more.
-        let active = if self.range.is_some() { crate::shader!("life/all_active.wgsl") } else { problem.active() };
+        let among = match self.range {
+            Some(_) => crate::shader!("collide/among_near.wgsl"),
+            None => crate::shader!("collide/among_all.wgsl"),
+        };
         let (merges, of) = (self.merges, problem.clone());
         let gather = move |me: &Particle, you: &Particle, r: DVec3, world: &World, nearest: &mut Option<Nearest>| {
             let u = you.velocity - me.velocity;
             let approach = r.dot(u);
             let back = if merges && approach > 0.0 { (approach / u.length_squared()).min(world.dt) } else { 0.0 };
             let square = (r - back * u).length_squared();
-            let reach = radius(me) + radius(you);
+            let reach = size(me) + size(you);
             let both_held = of.is_held(me.index) && of.is_held(you.index);
             let heavy = me.mass > 0.0 || you.mass > 0.0;
-            let meets = heavy && !both_held && (merges || approach < 0.0) && you.is_active();
+            let meets = reach > 0.0 && heavy && !both_held && (merges || approach < 0.0);
             let nearer = |known: &Nearest| (square, you.index) < (known.square, known.index);
             if square < reach * reach && meets && nearest.as_ref().is_none_or(nearer) {
                 *nearest = Some(Nearest { index: you.index, square });
             }
         };
-        let finish = move |me: &Particle, nearest: &Option<Nearest>, world: &World, outcome: &mut Outcome| {
-            let nearest = nearest.as_ref().filter(|_| me.is_active() && world.dt > 0.0);
+        let finish = move |_: &Particle, nearest: &Option<Nearest>, world: &World, outcome: &mut Outcome| {
+            let nearest = nearest.as_ref().filter(|_| world.dt > 0.0);
             outcome.set(PARTNER.name, nearest.map_or(0, |you| row(you.index) + 1));
         };
         let wgsl = crate::shader!("updaters/collide.wgsl");
         Law {
             constants: vec![("MERGES", f64::from(u8::from(self.merges)))],
-            beside: vec![holding, active],
+            beside: vec![holding, among],
             tables,
             ..Law::computing("collide", over, wgsl, Vec::new(), &[], gather, finish)
         }
     }
     /// The kernels that find the partner of each body.
     fn search(&self, plan: &mut Plan, problem: &Problem) -> Result<(), Error> {
+        plan.add(self.prepared(problem)?);
+        if self.range.is_none() {
+            let (bound, reach) = (Name::from(BOUND.name), Name::from(REACH.name));
+            let most = rows(Operation::Max, Items::Vec4, &bound, &reach, problem.capacity, &problem.machine)?;
+            plan.add(Kernel { name: "collide reach".to_owned(), ..most });
+        }
         let law = self.law(problem);
         if let Some((grid, moving)) = law.grid(problem)? {
             plan.add(grid.kernel(problem, moving)?);
         }
-        let mut kernel = law.kernel(problem)?;
+        let mut kernel = law.kernel(&in_parts(problem))?;
         let rows = u64::from(problem.capacity);
-        kernel.sizes.extend([RADIUS.name, PARTNER.name].map(|name| (name.into(), rows)));
+        kernel.sizes.extend([(SIZE.name.into(), rows), (PARTNER.name.into(), rows)]);
+        kernel.sizes.extend(self.range.is_none().then(|| (REACH.name.into(), 1)));
         plan.add(kernel);
         Ok(())
     }
+    /// The kernel that prepares the search.
+    fn prepared(&self, problem: &Problem) -> Result<Kernel, Error> {
+        let paths = f64::from(u8::from(self.merges));
+        let reference = move |host: &Host| {
+            let (world, is_active) = (host.world(), host.is_active()?);
+            let (velocity, radius) = (host.read(VELOCITY)?, host.read(RADIUS)?);
+            let (mut size, mut bound) = (host.write(SIZE)?, host.write(BOUND)?);
+            for row in 0..world.count as usize {
+                let reach = radius[row] + paths * world.dt * velocity[row].truncate().length();
+                let active = is_active(row);
+                size[row] = if active { radius[row] } else { GONE };
+                bound[row] = if active { DVec4::X * reach } else { DVec4::ZERO };
+            }
+            Ok(())
+        };
+        let files = [crate::shader!("world.wgsl"), problem.active(), crate::shader!("collide/prepare.wgsl")];
+        let constants = vec![("PATHS", paths)];
+        let shader = Shader::join(&files)?;
+        let kernel = Kernel::new("collide prepare", shader, constants, problem.capacity, Arc::new(reference));
+        let rows = [RADIUS.name, SIZE.name, BOUND.name].map(|name| (name.into(), u64::from(problem.capacity)));
+        Ok(Kernel { name: "collide prepare".to_owned(), sizes: rows.to_vec(), ..kernel })
+    }
+}
+
+/// The same problem with fewer sources in a dispatch of a software adapter, where each may be one iteration for each target of an invocation:
+/// with four of them these are half of what lavapipe allows.
+fn in_parts(problem: &Problem) -> Problem {
+    let mut problem = problem.clone();
+    if problem.machine.software {
+        problem.machine.meetings = problem.machine.meetings.min(8192 * u64::from(problem.capacity));
+    }
+    problem
 }
 
 /// The nearest of the others that a body touches.
@@ -120,8 +168,8 @@ fn row(index: usize) -> u32 {
     u32::try_from(index).unwrap_or(u32::MAX)
 }
 
-fn radius(body: &Particle) -> f64 {
-    body.scalar(RADIUS.name).unwrap_or(0.0)
+fn size(body: &Particle) -> f64 {
+    body.scalar(SIZE.name).unwrap_or(GONE)
 }
 
 /// The part of the mass of two bodies that the other one has, where a fixed one has all of it.

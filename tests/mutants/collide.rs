@@ -38,7 +38,7 @@ pub const EQUIVALENT: &[Equivalent] = &[
         "tests/physics/collisions has bodies without a size in pictures",
     ),
     same("updaters/collide", "if MERGES && approach", ">", ">=", "then the closest approach is now"),
-    same("updaters/collide", "let first =", "<", "<=", "no partner is met twice"),
+    same("updaters/collide", "let before =", "<", "<=", "no partner is met twice"),
 ];
 
 /// Many that touch, at all distances; some are fixed, without mass, as heavy or as near as others, at rest.
