@@ -30,6 +30,9 @@ pub const EQUIVALENT: &[Equivalent] = &[
     same("collide/bounce", "if j == NONE", "<", ">", EACH),
     same("collide/merge", "return mine > its", "<", "<=", EACH),
     same("collide/pair", "if partner > 0u", ">", ">=", BEHIND),
+    same("collide/among_all", "let reach =", "2.001", "3.0015", "more are looked at than need be"),
+    same("collide/among_all", "if dot(r, r)", "<=", "<", "what is just so far touches only by rounding"),
+    same("updaters/collide", "if reach > 0.0", ">", ">=", "no square is below 0"),
     same(
         "collide/volume",
         "if large <= 0.0",
@@ -107,13 +110,16 @@ fn step(device: &Device, name: &str, machine: Machine, setup: &Setup, stages: &m
     let clock = pollster::block_on(simulation.backend().world()).expect("a clock");
     let amid = Rc::new(RefCell::new(simulation));
     let mut before = None;
-    // In a step of no length nothing happens.
-    let search = plan.kernels.iter().find(|kernel| kernel.name == "collide").expect("a search").clone();
-    amid.borrow_mut().backend().set_world(World { step: 11, dt: 0.0, ..clock }).expect("a clock");
-    stages.push(Stage::amid(&format!("no step, {name}"), &amid, alone(search)));
-    amid.borrow_mut().backend().set_world(World { step: 11, dt: 0.25, ..clock }).expect("a clock");
+    let last = |dt: f64| amid.borrow_mut().backend().set_world(World { step: 11, dt, ..clock }).expect("a clock");
+    last(1.25);
     for kernel in &plan.kernels {
         let program = amid.borrow_mut().backend().compile(&alone(kernel.clone())).expect("a program");
+        if kernel.name == "collide" {
+            // In a step of no length nothing happens.
+            last(0.0);
+            stages.push(Stage::amid(&format!("no step, {name}"), &amid, alone(kernel.clone())));
+            last(1.25);
+        }
         if kernel.name.starts_with("collide") {
             // Parts of masses are single numbers, and so is the line of centres: what they make of a low word is as rounded as forces are.
             let slack = if double { 8.0 } else { 1.0 };
