@@ -1,5 +1,7 @@
 //! Stages of collisions: every kernel in a crowd in which many touch.
 
+#![allow(clippy::cast_possible_truncation, reason = "numbers are rounded to what f32 holds, and few")]
+
 use std::cell::RefCell;
 use std::rc::Rc;
 
@@ -111,14 +113,14 @@ fn step(device: &Device, name: &str, machine: Machine, setup: &Setup, stages: &m
     let amid = Rc::new(RefCell::new(simulation));
     let mut before = None;
     let last = |dt: f64| amid.borrow_mut().backend().set_world(World { step: 11, dt, ..clock }).expect("a clock");
-    last(1.25);
+    last(0.875);
     for kernel in &plan.kernels {
         let program = amid.borrow_mut().backend().compile(&alone(kernel.clone())).expect("a program");
         if kernel.name == "collide" {
             // In a step of no length nothing happens.
             last(0.0);
             stages.push(Stage::amid(&format!("no step, {name}"), &amid, alone(kernel.clone())));
-            last(1.25);
+            last(0.875);
         }
         if kernel.name.starts_with("collide") {
             // Parts of masses are single numbers, and so is the line of centres: what they make of a low word is as rounded as forces are.

@@ -98,7 +98,7 @@ fn which_one_remains() {
         assert_eq!(end.whole("merged_into").expect("ids"), [0, 1, 0, 3, 0, 0, 0, 0, 10, 0]);
         let fixed = (end.mass()[2], end.position()[2], end.velocity()[2]);
         assert_eq!(fixed, (6.0, start.position()[2], DVec3::ZERO));
-        assert_eq!((end.mass()[9], end.velocity()[9].y as f32), (0.5, 0.3));
+        assert!((end.mass()[9] - 0.5).abs() < 1e-9 && (end.velocity()[9].y - 0.3).abs() < 1e-7);
     }
 }
 
@@ -115,7 +115,7 @@ fn a_chain_merges_from_step_to_step() {
         let now = state(&mut simulation);
         assert!(now.size().iter().all(|size| *size == 0.0));
         left.push(now.life().iter().filter(|life| **life == Life::Active).count());
-        assert!((centre(&now).x - 0.3125).abs() < 1e-6 && now.mass().iter().sum::<f64>() == 6.0);
+        assert!((centre(&now).x - 0.3125).abs() < 1e-6 && (now.mass().iter().sum::<f64>() - 6.0).abs() < 1e-9);
     }
     // Of equal distances the lower row counts: first 0 and 1 merge, whose centre is then nearer to that of 2 and 3 than these to 4.
     assert!(left.windows(2).all(|two| two[1] == two[0] - 1 || two[1] == 1), "{left:?}");
@@ -175,7 +175,7 @@ fn a_collapse_conserves_mass_momentum_and_volume() {
         assert!(left < 450 && left > 1, "{seed}: {left} are left");
         // Masses are integers, which single precision adds exactly.
         assert_eq!(end.mass(), recorded(&end), "{seed}");
-        assert_eq!(end.mass().iter().sum::<f64>(), 500.0);
+        assert!((end.mass().iter().sum::<f64>() - 500.0).abs() < 1e-9);
         // Each of 260 sums of forces, and each merger, is rounded to 6e-8 of velocities and forces of about 1: by chance.
         assert!(momentum(&end).length() < 2e-3, "{seed}: {}", momentum(&end));
         assert!((centre(&end) - centre(&start)).length() < 1e-4, "{seed}: {}", centre(&end));

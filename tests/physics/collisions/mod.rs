@@ -79,7 +79,8 @@ fn crowd(count: usize, seed: u64, single: bool) -> State {
     let radii = (0..count).map(|_| 0.05 * (1.5 + random.next())).collect();
     let mut state = with_radii(state, radii);
     if !single {
-        state.held = (0..count).step_by(5).map(|id| Held { id: id as u32, by: Hold::Fixed }).collect();
+        state.held =
+            (0..count).step_by(5).map(|id| Held { id: u32::try_from(id).expect("few"), by: Hold::Fixed }).collect();
         (0..count).step_by(5).for_each(|id| state.velocity_mut()[id] = DVec3::ZERO);
     }
     state
