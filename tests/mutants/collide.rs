@@ -33,6 +33,7 @@ pub const EQUIVALENT: &[Equivalent] = &[
     same("collide/merge", "return mine > its", "<", "<=", EACH),
     same("collide/pair", "if partner > 0u", ">", ">=", BEHIND),
     same("collide/among_all", "let reach =", "2.001", "3.0015", "more are looked at than need be"),
+    same("collide/among_all", "let reach =", "*", "/", "tests/physics/collisions/mergers.rs has far ones that touch"),
     same("collide/among_all", "if dot(r, r)", "<=", "<", "what is just so far touches only by rounding"),
     same("updaters/collide", "if reach > 0.0", ">", ">=", "no square is below 0"),
     same(
