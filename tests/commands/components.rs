@@ -73,6 +73,9 @@ fn particles(name: &str) -> &'static str {
             "[box]\nsize = [20, 20, 0]\nboundary = \"open\"\n[plan]\nfile = \"room.wkt\"\n[[particles]]\nshape = \"crowd\"\ncount = 9\nsize = [5, 5, 0]\ncenter = [5, 5, 0]\n"
         }
         "born_mayer" | "coulomb" => "[[particles]]\nshape = \"lattice\"\nsize = [3, 3, 3]\nspacing = 1\ncharge = 1\n",
+        "collide" => {
+            "[box]\nsize = [3, 3, 3]\n[[particles]]\nshape = \"box\"\ncount = 40\nsize = [2, 2, 2]\nspeed = 0.5\ncollision_radius = 0.2\n"
+        }
         _ => "[box]\nsize = [3, 3, 3]\n[[particles]]\nshape = \"box\"\ncount = 40\nsize = [2, 2, 2]\nspeed = 0.5\n",
     }
 }
