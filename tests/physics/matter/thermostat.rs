@@ -173,7 +173,7 @@ fn what_it_does_not_serve_is_refused() {
     let said = refused(&rods);
     assert!(said.contains("leave out the rods"), "{said}");
     assert!(refused(&|all| all.forces = vec![thermostat(24.0)]).contains("no degree of freedom"));
-    assert!(refused(&|all| all.state.set_life(1, Life::Removed)).contains("leave out emitters and drains"));
+    assert!(refused(&|all| all.state.set_life(1, Life::Removed)).contains("leave out emitters, drains and mergers"));
 }
 
 #[test]

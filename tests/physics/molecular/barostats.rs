@@ -379,7 +379,7 @@ fn what_a_barostat_does_not_serve_is_refused() {
     refused(tied, "leave out the rods");
     let mut open = good();
     open.state.capacity = Some(200);
-    refused(open, "leave out emitters and drains");
+    refused(open, "leave out emitters, drains and mergers");
     refused(Setup { integrator: integrator("rk4"), ..good() }, "choose leapfrog");
     refused(Setup { forces: vec![cut(2.9, "cut", "list"), pushed()], ..good() }, "more than half of it");
     refused(Setup { dt: 0.03, ..good() }, "fifth of its relaxation time");
