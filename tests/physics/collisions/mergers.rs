@@ -117,7 +117,7 @@ fn a_chain_merges_from_step_to_step() {
         left.push(now.life().iter().filter(|life| **life == Life::Active).count());
         assert!((centre(&now).x - 0.3125).abs() < 1e-6 && (now.mass().iter().sum::<f64>() - 6.0).abs() < 1e-9);
     }
-    // Of equal distances the lower row counts: first 0 and 1 merge, whose centre is then nearer to that of 2 and 3 than these to 4.
+    // Of equal distances the lower row counts: first 0 and 1 merge, then 2 and 3, which are nearer to each other than 2 to that centre, then 4 and 5.
     assert!(left.windows(2).all(|two| two[1] == two[0] - 1 || two[1] == 1), "{left:?}");
     assert_eq!((left[0], left[5]), (5, 1), "{left:?}");
 }
