@@ -155,7 +155,7 @@ pub fn overlong(device: &Device, stages: &mut Vec<Stage>) {
         let clock = pollster::block_on(simulation.backend().world()).expect("a clock");
         simulation.backend().set_world(World { step: 9, ..clock }).expect("a clock");
         let mut alarm = QUIET;
-        alarm[12..].copy_from_slice(&[step, particle]);
+        alarm[12..14].copy_from_slice(&[step, particle]);
         put(&mut simulation, ALARM, &alarm);
         stages.push(stage(&format!("overlong {step}"), simulation, law.clone().kernel(&problem).expect("a kernel")));
     }
