@@ -36,6 +36,7 @@ pub const SCENES: &[Builtin] = scenes![
     "merger",
     "plummer",
     "cold_collapse",
+    "accretion",
     "periodic_box",
     "cosmic_web",
     "fountain",

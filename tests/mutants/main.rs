@@ -51,7 +51,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::{Duration, Instant};
 
 use equivalents::{EQUIVALENT, SOLVES};
-use open::OPEN;
+use open::{ENDLESS, OPEN};
 use stages::Stage;
 use support::Shared;
 use support::equivalents::{Equivalent, Ledger};
@@ -95,7 +95,8 @@ fn files() -> Vec<File> {
     files
 }
 
-/// Whether each mutant is noticed by a stage. Those on the list are shown to the stages that notice most, or to all where `whole`.
+/// Whether each mutant is noticed by a stage. Those on the list are shown to the stages that notice most, or to all where `whole`. Only there
+/// those are run that are known to be endless.
 fn noticed(stages: &[&Stage], file: &File, listed: &[bool], whole: bool) -> Vec<bool> {
     // Stages beside each other are alike: they are taken from all over the list, so that what one kind overlooks is soon shown to another. The
     // smallest is the first, where it is much smaller: loops that a mutant makes endless run for as long as a driver lets them, once for each
@@ -110,7 +111,9 @@ fn noticed(stages: &[&Stage], file: &File, listed: &[bool], whole: bool) -> Vec<
         place += 1;
         (place - 1).reverse_bits()
     });
-    let (known, mut alive): (Vec<usize>, Vec<usize>) = (0..listed.len()).partition(|mutant| listed[*mutant]);
+    let endless = |mutant: usize| ENDLESS.iter().any(|e| e.is(&file.name, &file.mutants[mutant]));
+    let run = (0..listed.len()).filter(|mutant| whole || !endless(*mutant));
+    let (known, mut alive): (Vec<usize>, Vec<usize>) = run.partition(|mutant| listed[*mutant]);
     for (kills, stage) in &mut stages {
         let before = alive.len();
         alive = unnoticed(stage, file, &alive);
@@ -248,6 +251,8 @@ fn every_mutant_is_noticed() {
     let minutes = std::env::var("MUTANTS_MINUTES").ok();
     let minutes = minutes.map(|text| text.parse().unwrap_or_else(|_| panic!("MUTANTS_MINUTES={text} is no number")));
     let end = minutes.map(|minutes| Instant::now() + Duration::from_mins(minutes));
+    let known = |e: &Equivalent| files.iter().any(|file| file.mutants.iter().any(|mutant| e.is(&file.name, mutant)));
+    assert!(!only.is_empty() || ENDLESS.iter().all(known), "a mutant without an end is no mutant any more");
     let queue = Queue { files: &files, next: AtomicUsize::new(0), end };
     std::thread::scope(|scope| {
         for (turn, shared) in devices.iter().enumerate() {

@@ -1,10 +1,15 @@
 //! Mutants that no stage notices yet. Numbers may only fall: a stage that shows what such a line does takes them away.
 
-use crate::support::equivalents::Open;
+use crate::support::equivalents::{Equivalent, Open, same};
 
 const fn open(file: &'static str, most: usize) -> Open {
     Open { file, most }
 }
+
+/// Mutants whose loops have no end: a driver ends them after a minute or more, in which the other device waits too. Each is noticed, and is tried only
+/// where files are chosen.
+pub const ENDLESS: &[Equivalent] =
+    &[same("visit/tree_look", "fn begun()", "/", "*", "a search that has not begun never ends")];
 
 pub const OPEN: &[Open] = &[
     // Walks that continue: what they keep is read again only where they stop late, and workgroups too many do nothing.

@@ -6,6 +6,7 @@ pub const SMALLER: &[(&str, &[&str])] = &[
     ("merger", &["particles.0.count=100", "particles.1.count=100"]),
     ("plummer", &["particles.0.count=100"]),
     ("cold_collapse", &["particles.0.count=100"]),
+    ("accretion", &["particles.0.count=100"]),
     ("periodic_box", &["particles.0.size=[5, 5, 5]"]),
     ("cosmic_web", &["particles.0.count_per_side=5"]),
     ("fountain", &["particles.0.count=100", "particles.1.count=100"]),

@@ -23,6 +23,7 @@ fn every_one_loads_and_says_what_to_see() {
         "merger",
         "plummer",
         "cold_collapse",
+        "accretion",
         "periodic_box",
         "cosmic_web",
         "fountain",
