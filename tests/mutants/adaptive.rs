@@ -21,7 +21,7 @@ const ALWAYS_SET: &str = "the host sets every override";
 const FAR: &str = "what is farther than two longest steps shortens none";
 
 pub const EQUIVALENT: &[Equivalent] = &[
-    same("motion/adaptive.wgsl", "override UNIT: f32 = 1.0;", "1.0", "1.5", ALWAYS_SET),
+    same("adaptive.wgsl", "override UNIT: f32 = 1.0;", "1.0", "1.5", ALWAYS_SET),
     same("adaptive_dt.wgsl", "override UNIT: f32 = 1.0;", "1.0", "1.5", ALWAYS_SET),
     same("adaptive_dt.wgsl", "override LEAST: u32 = 1u;", "1u", "2u", ALWAYS_SET),
     same("adaptive_dt.wgsl", "override VISCOUS: f32 = 0.0;", "0.0", "1.0", ALWAYS_SET),

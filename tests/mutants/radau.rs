@@ -24,7 +24,6 @@ const CHANCE: &str = "they are equal by chance alone";
 pub const EQUIVALENT: &[Equivalent] = &[
     same("radau/move", "override H: f32 = 1.0;", "1.0", "1.5", ALWAYS_SET),
     same("radau/rest_even", "override REST: f32 = 0.0;", "0.0", "1.0", ALWAYS_SET),
-    same("radau/rest_adaptive", "override UNIT: f32 = 1.0;", "1.0", "1.5", ALWAYS_SET),
     same("radau/rest_adaptive", "override UNIT_REST: f32 = 0.0;", "0.0", "1.0", ALWAYS_SET),
     same("radau/settle", "override ROUNDING: f32 = 0.0;", "0.0", "1.0", ALWAYS_SET),
     same("radau/settle", "override NOISE: f32 = 0.0;", "0.0", "1.0", ALWAYS_SET),
