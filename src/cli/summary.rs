@@ -26,7 +26,8 @@ pub fn energy(rows: &[Energy], looks: &Looks, conserved: &Conserved) -> String {
             "{ends}, {word} {change:+.1e} of the largest kinetic energy, {largest:.3e}, at most {most:.1e} in {count} measurements"
         );
     }
-    let most = looks.change / first.total().abs();
+    // Absolute where there is no energy at all.
+    let most = if first.total() == 0.0 { looks.change } else { looks.change / first.total().abs() };
     format!("{ends}, {word} {:+.1e}, at most {most:.1e} in {} measurements", last.drift_from(&first), looks.count)
 }
 

@@ -6,7 +6,7 @@ use glam::DVec3;
 
 use super::{columns, inactive, initial_projection, lists, pair_history, refuses_own_steps, tables, unwritten};
 use crate::boundary;
-use crate::component;
+use crate::component::{self, Properties};
 use crate::crowds;
 use crate::error::Error;
 use crate::forces::{Component, Over, Problem, Stage};
@@ -150,13 +150,20 @@ impl Setup {
         }
         Ok(())
     }
-    /// Refuses a second thermostat.
-    fn has_one_thermostat(&self) -> Result<(), Error> {
-        let all: Vec<&str> = self.forces.iter().filter(|f| f.properties().thermostat).map(|f| f.name()).collect();
-        let [first, second, ..] = all[..] else { return Ok(()) };
-        let text =
-            if first == second { format!("{first} is there twice") } else { format!("{first} and {second} are there") };
-        Err(Error::Scene(format!("{text}, and each would regulate the same particles: remove one of them")))
+    /// Refuses a second thermostat, and a second search for collisions.
+    fn has_one_of_a_kind(&self) -> Result<(), Error> {
+        let refuse = |chosen: fn(&Properties) -> bool, why: &str| {
+            let all: Vec<&str> = self.forces.iter().filter(|f| chosen(&f.properties())).map(|f| f.name()).collect();
+            let [first, second, ..] = all[..] else { return Ok(()) };
+            let text = if first == second {
+                format!("{first} is there twice")
+            } else {
+                format!("{first} and {second} are there")
+            };
+            Err(Error::Scene(format!("{text}, and {why}: remove one of them")))
+        };
+        refuse(|one| one.thermostat, "each would regulate the same particles")?;
+        refuse(|one| one.collides, "a body collides with one other in a step")
     }
     /// Refuses an integrator that begins steps with forces of other positions, where a component needs those of the present ones.
     fn has_forces_in_time(&self) -> Result<(), Error> {
@@ -447,7 +454,7 @@ impl Setup {
         self.on_the_floor()?;
         motion::check(held, motions, count, self.bounds.dimensions, self.dt)?;
         life::check((life, births, drains), held, count, self.bounds.dimensions)?;
-        self.has_one_thermostat()?;
+        self.has_one_of_a_kind()?;
         self.has_forces_in_time()?;
         self.serves_barostat()?;
         inactive::serves(&self.state, &self.forces, self.integrator.as_ref())?;

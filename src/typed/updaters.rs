@@ -95,7 +95,7 @@ typed! {
     Collide "collide" collide() {
         /// What becomes of two bodies that collide: one body, or two that part: merge, bounce.
         outcome: Cow<'static, str>,
-        /// Outcome = "bounce": the speed at which they part, over that at which they approach; 1: no energy is lost.
+        /// Outcome = "bounce": the speed at which they part, over that at which they approach, 1 at most: no energy is lost; 0: they keep no speed along their line of centres.
         restitution: f64,
         /// How collisions are found: among all pairs, or by a cell list, among those in `range`: pairs, near.
         over: Cow<'static, str>,

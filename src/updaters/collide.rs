@@ -20,7 +20,7 @@ use crate::visit::{Law, Outcome, Particle};
 /// The keys in a scene.
 pub const KEYS: &[Key] = &[
     Key::new("outcome", Kind::Choice(&["merge", "bounce"]), Value::Text(Cow::Borrowed("merge")), "what becomes of two bodies that collide: one body, or two that part"),
-    Key::new("restitution", Kind::Fraction, Value::Number(1.0), "outcome = \"bounce\": the speed at which they part, over that at which they approach; 1: no energy is lost"),
+    Key::new("restitution", Kind::NotNegative, Value::Number(1.0), "outcome = \"bounce\": the speed at which they part, over that at which they approach, 1 at most: no energy is lost; 0: they keep no speed along their line of centres"),
     Key::new("over", Kind::Choice(&["pairs", "near"]), Value::Text(Cow::Borrowed("pairs")), "how collisions are found: among all pairs, or by a cell list, among those in `range`"),
     Key::new("range", Kind::NotNegative, Value::Number(0.0), "over = \"near\": the largest distance of the centres of bodies that touch; it must be given, and no radius may exceed half of it [length]"),
 ];
@@ -357,6 +357,14 @@ impl Component for Collide {
     }
     fn check(&self, _: &Bounds) -> Result<(), Error> {
         let refuse = |why: String| Err(Error::Setting { key: "range", why });
+        let restitution = self.restitution;
+        let refuse_part = |why: String| Err(Error::Setting { key: "restitution", why });
+        if restitution > 1.0 {
+            return refuse_part(format!("bodies would part {restitution} times as fast as they approach, and gain energy: give 1 at most"));
+        }
+        if self.merges && restitution < 1.0 {
+            return refuse_part(format!("restitution = {restitution} is that of outcome = \"bounce\", and these bodies merge: set it, or leave the restitution out"));
+        }
         match self.range {
             Some(range) if range <= 0.0 => refuse("over = \"near\" searches bodies in `range`, which is missing: give twice the largest radius that a body may have".to_owned()),
             None if self.unused > 0.0 => refuse(format!("range = {} is that of over = \"near\", and all pairs are searched: set it, or leave the range out", self.unused)),

@@ -121,6 +121,14 @@ fn the_largest_energy_error_is_that_of_the_way() {
     assert!(most > 3.0 * end && most < 0.1, "{end} {most}");
 }
 
+/// Where there is no energy there is nothing to relate its change to.
+#[test]
+fn a_body_at_rest_has_an_energy_that_is_a_number() {
+    let text = scene("0.01", 40, &body("[0, 0, 0]", "[0, 0, 0]"));
+    let said = said(&text, &["run", "--backend", "cpu"]);
+    assert!(said.contains("at most 0.0e0 in") && !said.contains("NaN"), "{said}");
+}
+
 /// Rods follow their pins at once: a motion that jumps throws them.
 #[test]
 fn a_jump_of_a_motion_on_rods_is_remarked_on() {

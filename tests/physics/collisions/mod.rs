@@ -189,6 +189,15 @@ fn what_it_refuses() {
     assert!(text.contains("`range`"), "{text}");
     let text = refused(&Setup::new(two(), vec![force("collide", &[("range", Value::Number(1.0))])], 0.01));
     assert!(text.contains("over = \"near\""), "{text}");
+    let elastic = |outcome: &'static str, restitution: f64| {
+        force("collide", &[("outcome", word(outcome)), ("restitution", Value::Number(restitution))])
+    };
+    let text = refused(&Setup::new(two(), vec![elastic("merge", 0.5)], 0.01));
+    assert!(text.contains("restitution = 0.5 is that of outcome = \"bounce\""), "{text}");
+    let text = refused(&Setup::new(two(), vec![elastic("bounce", 1.5)], 0.01));
+    assert!(text.contains("part 1.5 times as fast") && text.contains("give 1 at most"), "{text}");
+    let text = refused(&Setup::new(two(), vec![merging(), bouncing(1.0)], 0.01));
+    assert!(text.contains("collide is there twice") && text.contains("one other in a step"), "{text}");
     let text = refused(&Setup::new(two(), vec![near(0.15, &[])], 0.01));
     assert!(text.contains("collision_radius 0.1") && text.contains("half of the `range`"), "{text}");
     let text = refused(&Setup::new(with_radii(two(), vec![0.1, -0.1]), vec![merging()], 0.01));
