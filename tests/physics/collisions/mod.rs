@@ -197,6 +197,7 @@ fn what_it_refuses() {
     let text = refused(&Setup::new(two(), vec![elastic("bounce", 1.5)], 0.01));
     assert!(text.contains("part 1.5 times as fast") && text.contains("give 1 at most"), "{text}");
     let text = refused(&Setup::new(two(), vec![merging(), bouncing(1.0)], 0.01));
+    // What is said of two, and not of what one of them lacks.
     assert!(text.contains("collide is there twice") && text.contains("one other in a step"), "{text}");
     let text = refused(&Setup::new(two(), vec![near(0.15, &[])], 0.01));
     assert!(text.contains("collision_radius 0.1") && text.contains("half of the `range`"), "{text}");
