@@ -6,6 +6,7 @@ use glam::{DVec3, DVec4, Vec4};
 use rayon::prelude::*;
 
 use super::particle::{Particle, View};
+use super::reference::PIECE;
 use super::{Law, Over};
 use crate::error::Error;
 use crate::kernel::{Field, Host, Kernel, Pass, Problem, Shader, Source, World};
@@ -56,7 +57,7 @@ impl Law {
             let (bodies, world) = (view.particles(), host.world());
             let h = factor * world.dt;
             let mut rows = host.write(ROWS)?;
-            rows.par_chunks_mut(ROW).zip(&bodies).for_each(|(row, me)| {
+            rows.par_chunks_mut(ROW).zip(&bodies).with_min_len(PIECE).for_each(|(row, me)| {
                 let weight = row[1].w;
                 let column = |axis: DVec3| weight * jvp(me, &world, h * h * axis, h * axis);
                 let [x, y, z] = [DVec3::X, DVec3::Y, DVec3::Z].map(column);

@@ -13,8 +13,15 @@ use crate::kernel::{ACCELERATION, Bounds, Host, Reference, World};
 use crate::links::{Exclusions, Half, Shared};
 use crate::neighbors::exclusions;
 
-/// Particles that a thread takes at least: fewer are done before another thread is awake.
-const PIECE: usize = 16;
+/// Particles that a thread takes at least, where each is looked at alone or with few others: fewer are done before another thread is awake.
+pub(super) const PIECE: usize = 128;
+/// The same for pairs.
+const PAIRS: usize = 4096;
+
+/// Particles that a thread takes at least, where each meets all of so many.
+pub(super) fn piece(count: usize) -> usize {
+    PAIRS / count.max(1) + 1
+}
 
 /// Each particle alone.
 pub fn each(rule: impl Fn(&Particle, &World) -> DVec4 + Send + Sync + 'static) -> Reference {
@@ -118,7 +125,7 @@ fn meeting<S: Default>(
             finish(me, &sum, &world, &mut outcome);
             Some((me.index, outcome))
         };
-        let outcomes: Vec<_> = bodies.par_iter().with_min_len(PIECE).filter_map(outcome).collect();
+        let outcomes: Vec<_> = bodies.par_iter().with_min_len(piece(bodies.len())).filter_map(outcome).collect();
         // Each of a pair holds half of its potential energy.
         result::write(host, 0.5, search.as_ref(), outcomes)
     })
@@ -138,7 +145,7 @@ pub fn sample(rule: Arc<impl Fn(&Particle, &Particle, DVec3, &World) -> DVec4 + 
             let met = others.map(|you| rule(me, you, world.bounds.shortest(you.position - me.position), &world));
             Some(met.sum::<DVec4>() * DVec4::new(1.0, 1.0, 1.0, 0.5))
         };
-        Ok(targets.par_iter().filter_map(summed).collect())
+        Ok(targets.par_iter().with_min_len(piece(bodies.len())).filter_map(summed).collect())
     })
 }
 

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use glam::{DVec3, DVec4, Vec4};
 use rayon::prelude::*;
 
-use super::reference::{ByTables, left_out, shared_tables};
+use super::reference::{ByTables, PIECE, left_out, piece, shared_tables};
 use super::tied::row;
 use super::{Law, Over, Particle, Tables, Tied, View};
 use crate::error::Error;
@@ -152,7 +152,7 @@ pub fn reference<S: Default>(
         let (bodies, world) = (view.particles(), host.world());
         let left_out = left_out(host, over)?;
         let mut virial = host.write(VIRIAL)?;
-        virial.par_chunks_mut(2).zip(&bodies).for_each(|(result, me)| {
+        virial.par_chunks_mut(2).zip(&bodies).with_min_len(piece(bodies.len())).for_each(|(result, me)| {
             let (mut whole, mut parts) = (S::default(), Parts::default());
             let force = |sum: &S| me.mass * (finish(me, sum, &world) - finish(me, &S::default(), &world)).truncate();
             for you in bodies.iter().filter(|you| you.index != me.index && me.is_active() && you.is_active()) {
@@ -185,7 +185,7 @@ pub fn links<S: Default>(
             let (view, bounds, tied) = (View::of(host)?, host.world().bounds, Tied::of(host, tables)?);
             let (bodies, (gather, finish)) = (view.particles(), &*rule);
             let mut virial = host.write(VIRIAL)?;
-            virial.par_chunks_mut(2).zip(&bodies).for_each(|(result, me)| {
+            virial.par_chunks_mut(2).zip(&bodies).with_min_len(PIECE).for_each(|(result, me)| {
                 let (mut whole, mut parts) = (S::default(), Parts::default());
                 let force = |sum: &S| me.mass * (finish(me, sum) - finish(me, &S::default())).truncate();
                 for half in tied.halves(me.index) {
@@ -216,7 +216,7 @@ pub fn corners<const N: usize, C: Shared<N>>(
         let (bodies, start, corner) =
             (view.particles(), host.reading::<u32>(names[0])?, host.reading::<u32>(names[1])?);
         let mut virial = host.write(VIRIAL)?;
-        virial.par_chunks_mut(2).zip(&bodies).for_each(|(result, me)| {
+        virial.par_chunks_mut(2).zip(&bodies).with_min_len(PIECE).for_each(|(result, me)| {
             let mut parts = Parts::default();
             for corner in row(&start, &corner, me.index, C::WORDS).map(C::new) {
                 let (ids, at) = (corner.ids(), corner.ids().map(|id| &bodies[id]));

@@ -9,6 +9,7 @@ use crate::error::Error;
 use crate::kernel::{Host, Reference, World};
 use crate::neighbors::{HISTORY, LIST, List, NONE, exclusions};
 use crate::visit::particle::{Particle, View};
+use crate::visit::reference::piece;
 use crate::visit::{Outcome, result};
 
 /// The history of a pair, word by word.
@@ -86,7 +87,7 @@ pub fn remembering<S: Default>(
             finish(me, &sum, &world, &mut outcome);
             Ok(Some(Made { outcome: (me.index, outcome), words }))
         };
-        let made = (0..count).into_par_iter().map(row).collect::<Result<Vec<_>, _>>()?;
+        let made = (0..count).into_par_iter().with_min_len(piece(count)).map(row).collect::<Result<Vec<_>, _>>()?;
         let mut outcomes = Vec::new();
         for made in made.into_iter().flatten() {
             for (place, value) in made.words {
