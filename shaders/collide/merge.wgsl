@@ -9,20 +9,21 @@
 
 const WORKGROUP: u32 = 64u;
 
-fn stays(i: u32, j: u32) -> bool {
-    if is_held(i) || is_held(j) { return is_held(i); }
-    let mine = position[i].w;
-    let its = position[j].w;
-    return mine > its || (mine == its && i < j);
+// Whether the first of two, of which it has the lower row, remains.
+fn stays(first: u32, second: u32) -> bool {
+    if is_held(first) || is_held(second) { return is_held(first); }
+    return position[first].w >= position[second].w;
 }
 
 @compute @workgroup_size(WORKGROUP)
 fn collide_merge(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u, @builtin(local_invocation_index) lane: u32) {
-    let i = folded(group, groups) * WORKGROUP + lane;
-    if i >= world.count { return; }
-    let j = collided(i);
-    if j == NONE { return; }
-    if !stays(i, j) { return; }
+    let row = folded(group, groups) * WORKGROUP + lane;
+    if row >= world.count { return; }
+    let other = collided(row);
+    if other == NONE || other < row { return; }
+    let remains = stays(row, other);
+    let i = select(other, row, remains);
+    let j = select(row, other, remains);
     let part = weight(i, j);
     approach(i, j, part);
     acceleration[i] += part * (acceleration[j] - acceleration[i]);

@@ -8,7 +8,7 @@
 
 override PATHS: f32; // 1: bodies may touch on their way
 const WORKGROUP: u32 = 64u;
-const GONE: f32 = -1e30;
+const GONE: f32 = -3e38;
 
 @compute @workgroup_size(WORKGROUP)
 fn collide_prepare(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u, @builtin(local_invocation_index) lane: u32) {

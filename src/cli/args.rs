@@ -12,7 +12,7 @@ Exit codes:
   3   an error in the scene, or in a WGSL file that it names
   4   an error in a file of particles
   5   no suitable adapter, or a limit of the device is exceeded
-  6   NaN or infinity, a runaway, too many neighbours, a bond that is too long, a step below dt_min, or below the shortest block time step, or a user's law with too many loop iterations
+  6   NaN or infinity, a runaway, too many neighbours, a bond that is too long, a body that has outgrown the search for collisions, a step below dt_min, or below the shortest block time step, or a user's law with too many loop iterations
   7   the device was lost, ran out of memory or did not respond, or no thread could be started
   8   a result could not be written, or would overwrite those of another run
   9   `compare`, `doctor` or `validate` found a disagreement

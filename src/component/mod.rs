@@ -250,8 +250,8 @@ pub struct Properties {
     pub sets_velocities: bool,
     /// Whether it keeps pedestrians on the floor of a plan.
     pub keeps_in: bool,
-    /// Whether it changes bodies that collide, at the end of a step.
-    pub collides: bool,
+    /// How it changes bodies that collide, at the end of a step.
+    pub collides: Option<Collisions>,
     /// Whether it removes particles.
     pub removes: bool,
     /// Whether it breaks bonds.
@@ -329,6 +329,15 @@ pub struct Tail {
     pub energy: f64,
     /// ∫ U′ r³ dr \[energy length³\].
     pub slope: f64,
+}
+
+/// What becomes of bodies that collide, and how they are found.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Collisions {
+    /// The speed at which two part, over that at which they approach; none where they merge.
+    pub restitution: Option<f64>,
+    /// The distance within which they are searched at the end of a step \[length\]; none: all pairs.
+    pub range: Option<f64>,
 }
 
 /// The largest value that a column may have.

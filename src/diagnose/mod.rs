@@ -5,6 +5,7 @@ mod advice;
 mod baths;
 mod births;
 mod bonds;
+mod collisions;
 mod contradictions;
 mod cosmology;
 mod crowds;
@@ -141,6 +142,7 @@ impl Judged {
         remarks.extend(grains::remarks(setup));
         remarks.extend(crowds::remarks(setup)?);
         remarks.extend(softenings::all_zero(setup));
+        remarks.extend(collisions::remarks(setup));
         remarks.extend(cosmology::remarks(setup, steps));
         let verdict = Verdict::of(setup, &build, steps).await?;
         Ok(Self { verdict, start, lines, remarks })

@@ -91,7 +91,7 @@ impl<B: Backend> Simulation<B> {
     }
     /// The error of a body that has outgrown the search for its collisions.
     fn outgrown(&self, row: u32) -> Error {
-        let properties = self.setup.forces.iter().map(|force| force.properties()).filter(|one| one.collides);
+        let properties = self.setup.forces.iter().map(|force| force.properties()).filter(|one| one.collides.is_some());
         let limits = properties.flat_map(|one| one.largest).map(|limit| limit.value);
         Error::Outgrown { particle: self.named(row), largest: limits.fold(f64::INFINITY, f64::min) }
     }

@@ -98,7 +98,7 @@ pub fn refuses_blocks(given: BlockSteps, state: &State, forces: &[Box<dyn Compon
         let columns = force.columns();
         if let Some(why) = properties.fixed_step {
             refuse(format!("{name} is for steps of equal length ({why})"));
-        } else if properties.collides {
+        } else if properties.collides.is_some() {
             refuse(format!("{name} acts at the end of a step of all bodies"));
         } else if properties.constrains
             || properties.keeps_rods

@@ -57,7 +57,7 @@ pub fn serves(particles: &State, forces: &[Box<dyn Component>], integrator: &dyn
 fn serves_mergers(forces: &[Box<dyn Component>], integrator: &dyn Integrator) -> Result<(), Error> {
     let refuse = |text: String| Err(Error::Scene(text));
     let of_each = |column: &Column| column.role == Role::State && column.shape == Shape::Particle;
-    for force in forces.iter().filter(|force| !force.properties().collides) {
+    for force in forces.iter().filter(|force| force.properties().collides.is_none()) {
         // A softening is chosen, not conserved.
         if let Some(column) = force.columns().into_iter().find(|one| of_each(one) && one.name != SOFTENING_LENGTH) {
             return refuse(format!(

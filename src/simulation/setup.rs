@@ -163,7 +163,7 @@ impl Setup {
             Err(Error::Scene(format!("{text}, and {why}: remove one of them")))
         };
         refuse(|one| one.thermostat, "each would regulate the same particles")?;
-        refuse(|one| one.collides, "a body collides with one other in a step")
+        refuse(|one| one.collides.is_some(), "a body collides with one other in a step")
     }
     /// Refuses an integrator that begins steps with forces of other positions, where a component needs those of the present ones.
     fn has_forces_in_time(&self) -> Result<(), Error> {

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use glam::{DVec3, DVec4};
 
 use super::{Component, Over, Problem, Properties, Stage};
-use crate::component::Largest;
+use crate::component::{Collisions, Largest};
 use crate::error::Error;
 use crate::kernel::{
     ACCELERATION, ALARM, ALARM_WORDS, Bounds, Column, Field, Host, ID, Kernel, Kind as Element, LIFE, Name, POSITION, POSITION_LOW, Pass, Plan,
@@ -26,10 +26,10 @@ pub const KEYS: &[Key] = &[
 ];
 
 /// The radius of a body.
-const RADIUS: Field<f32> = Field::new("collision_radius");
+pub(crate) const RADIUS: Field<f32> = Field::new("collision_radius");
 /// The same of an active body, and a number below all radii of another.
 const SIZE: Field<f32> = Field::new("collision_size");
-const GONE: f64 = -1e30;
+const GONE: f64 = -3e38;
 /// How far from its place a body may have touched another, and how far any may \[length\].
 const BOUND: Field<glam::Vec4> = Field::new("collision_bound");
 const REACH: Field<glam::Vec4> = Field::new("collision_reach");
@@ -350,10 +350,12 @@ impl Component for Collide {
         let dissipates = if self.merges || self.restitution < 1.0 { loses } else { Vec::new() };
         let limit = match self.range {
             Some(range) => (0.5 * range, "it is half of the `range` of collide, in which collisions are searched: choose a larger range, or over = \"pairs\""),
-            None => (f64::from(f32::MAX), "single precision ends there"),
+            None => (-0.3 * GONE, "single precision ends there"),
         };
         let largest = vec![Largest { column: RADIUS.name, value: limit.0, why: limit.1 }];
-        Properties { collides: true, removes: self.merges, dissipates, turns, largest, ..Properties::default() }
+        let restitution = (!self.merges).then_some(self.restitution);
+        let collides = Some(Collisions { restitution, range: self.range });
+        Properties { collides, removes: self.merges, dissipates, turns, largest, ..Properties::default() }
     }
     fn check(&self, _: &Bounds) -> Result<(), Error> {
         let refuse = |why: String| Err(Error::Setting { key: "range", why });

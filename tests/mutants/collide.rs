@@ -26,11 +26,11 @@ const EACH: &str = "no row is its own partner, and either of two may do it for b
 
 pub const EQUIVALENT: &[Equivalent] = &[
     same("collide/bounce", "if i >= world.count", ">=", ">", BEHIND),
-    same("collide/merge", "if i >= world.count", ">=", ">", BEHIND),
+    same("collide/merge", "if row >= world.count", ">=", ">", BEHIND),
+    same("collide/merge", "if other == NONE", "<", "<=", EACH),
     same("collide/record", "if i >= world.count", ">=", ">", BEHIND),
     same("collide/bounce", "if j == NONE", "<", "<=", EACH),
     same("collide/bounce", "if j == NONE", "<", ">", EACH),
-    same("collide/merge", "return mine > its", "<", "<=", EACH),
     same("collide/pair", "if partner > 0u", ">", ">=", BEHIND),
     same("collide/among_all", "let reach =", "2.001", "3.0015", "more are looked at than need be"),
     same("collide/among_all", "let reach =", "*", "/", "tests/physics/collisions/mergers.rs has far ones that touch"),

@@ -7,7 +7,7 @@ use motes::kernel::{AdaptiveStep, Precision};
 use motes::life::Life;
 use motes::motion::{Held, Hold};
 use motes::settings::Value;
-use motes::{Setup, State};
+use motes::{Setup, Simulation, State};
 
 use super::{bodies, centre, merging, momentum, near, on, references, state, with_radii};
 use crate::support::states::{force, integrator};
@@ -43,6 +43,48 @@ fn two_become_one() {
         let exact = (6.0 - (36.0f64 - 4.0 * 2.26 * (4.0 - 0.0891)).sqrt()) / 4.52;
         let time = end.scalar("merge_time").expect("times")[0];
         assert!(time >= exact && time < exact + 0.01, "{time}, {exact}");
+    }
+}
+
+/// In two words the device keeps the digits of both: one word has 6e-5 at this distance from the origin.
+#[test]
+fn two_words_keep_their_digits() {
+    let shared = support::device();
+    let at = |x: f64, v: f64, mass: f64| (DVec3::new(x, -700.0 - x / 7.0, 0.3), DVec3::new(v, v / 3.0, 0.0), mass, 0.1);
+    let start = bodies(&[at(1000.123_456_789, 512.0 + 1e-7, 1.0), at(1000.2, 512.0 - 3e-6, 3.0)]);
+    for precision in [Precision::Compensated, Precision::DoubleSingle] {
+        let integrator = Box::new(Precise { integrator: integrator("leapfrog"), precision });
+        let setup = Setup { integrator, ..Setup::new(start.clone(), vec![merging()], 1e-6) };
+        let mut simulation = on(&shared, &setup);
+        simulation.step(1).expect("a step");
+        let end = state(&mut simulation);
+        assert_eq!(end.life(), [Life::Removed, Life::Active], "{precision:?}");
+        let mean = |all: &[DVec3]| 0.25 * (all[0] + 3.0 * all[1]);
+        let v = mean(start.velocity());
+        // Differences of 0.08 and 4e-6 are rounded to a word, and sums to two.
+        let errors = [end.position()[1] - mean(start.position()) - 1e-6 * v, end.velocity()[1] - v]
+            .map(|e| e.abs().max_element());
+        assert!(errors[0] < 1e-9 && errors[1] < 1e-9, "{precision:?}: {errors:?}");
+    }
+}
+
+/// Removed bodies touch none, however large all are.
+#[test]
+fn the_largest_radii_merge() {
+    let shared = support::device();
+    for (radius, good) in [(2e30, true), (8e37, true), (1e38, false)] {
+        let at = |x: f64, mass: f64| (DVec3::new(x, 0.0, 0.0), DVec3::ZERO, mass, radius);
+        let start = bodies(&[at(0.0, 3.0), at(1.0, 2.0), at(3.0, 1.0)]);
+        let setup = Setup::new(start, vec![merging()], 0.01);
+        let made = Simulation::new(&shared.found.device, &shared.found.queue, &setup);
+        let Ok(mut simulation) = made else {
+            let text = made.err().expect("refused").to_string();
+            assert!(!good && text.contains("single precision ends there"), "{radius}: {text}");
+            continue;
+        };
+        simulation.step(3).expect("steps");
+        let end = state(&mut simulation);
+        assert!(good && end.life() == [Life::Active, Life::Removed, Life::Removed], "{radius}: {:?}", end.life());
     }
 }
 

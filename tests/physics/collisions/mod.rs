@@ -207,3 +207,42 @@ fn what_it_refuses() {
     let text = refused(&Setup::new(two(), vec![merging(), lennard], 0.01));
     assert!(text.contains("evaluates all pairs"), "{text}");
 }
+
+/// What a run would miss, or not hold up, is remarked on before.
+#[test]
+fn what_is_remarked_on() {
+    let remarks = |start: &State, forces: Vec<Box<dyn Component>>| -> Vec<(&'static str, Option<f64>, String)> {
+        let setup = Setup::new(start.clone(), forces, 0.01);
+        let all = pollster::block_on(motes::diagnose::diagnose(&setup)).expect("remarks");
+        let all = all.iter().filter(|remark| remark.id.ends_with("-collisions"));
+        all.map(|remark| (remark.id, remark.number("particles"), remark.to_string())).collect()
+    };
+    // In a step they move by 0.19, 0.21 and 0.25; the diameter is 0.2.
+    let bodies = |radius: f64| {
+        let at = |x: f64, speed: f64| (DVec3::new(x, 0.0, 0.0), DVec3::Y * speed, 1.0, radius);
+        bodies(&[at(0.0, 19.0), at(1.0, 21.0), at(2.0, 25.0)])
+    };
+    let gravity = || force("gravity", &[("softening", Value::Number(0.1))]);
+    assert_eq!(remarks(&bodies(0.1), vec![merging(), gravity()]), []);
+    let one = |all: Vec<(&'static str, Option<f64>, String)>| {
+        assert_eq!(all.len(), 1, "{all:?}");
+        all.into_iter().next().expect("a remark")
+    };
+    let (id, count, text) = one(remarks(&bodies(0.1), vec![bouncing(1.0), gravity()]));
+    assert!(
+        (id, count) == ("fast-collisions", Some(2.0)) && text.contains("particle 1 of radius 0.1 moves by 2.100e-1"),
+        "{text}"
+    );
+    assert_eq!(remarks(&bodies(0.13), vec![bouncing(1.0), gravity()]), []);
+    // Where they are searched in a range each has half of it.
+    let (id, count, text) = one(remarks(&bodies(0.1), vec![near(0.6, &[]), gravity()]));
+    assert!((id, count) == ("fast-collisions", Some(2.0)) && text.contains("half of the range"), "{text}");
+    assert_eq!(remarks(&bodies(0.1), vec![near(0.72, &[]), gravity()]), []);
+    // Gravity presses together what does not part.
+    let (id, _, text) = one(remarks(&bodies(0.2), vec![bouncing(0.5), gravity()]));
+    assert!(
+        id == "resting-collisions" && text.contains("gravity presses together") && text.contains("`contact`"),
+        "{text}"
+    );
+    assert_eq!(remarks(&bodies(0.2), vec![bouncing(0.5)]), []);
+}
