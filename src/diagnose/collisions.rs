@@ -24,19 +24,19 @@ fn fast(setup: &Setup, collisions: &Collisions, radius: &[f64]) -> Option<Remark
     };
     let mut all = ways.enumerate().filter(|(row, way)| radius[*row] > 0.0 && state.is_active(*row) && far(*row, *way));
     let (row, way) = all.next()?;
-    let (particles, id) = (1 + all.count(), state.ids().get(row).copied().unwrap_or(row as u32));
+    let (particles, id) = (1 + all.count(), state.ids().get(row).map_or(row as f64, |id| f64::from(*id)));
     let (what, way_out) = match collisions.restitution {
         Some(_) => ("more than the diameter", "choose a smaller dt"),
         None => {
-            ("and its radius: more than half of the range", "choose a smaller dt, a larger range, or over = \"pairs\"")
+            ("with its radius more than half of the range", "choose a smaller dt, a larger range, or over = \"pairs\"")
         }
     };
+    let others = if particles > 1 { format!("it and {} more", particles - 1) } else { "it".to_owned() };
     let text = format!(
-        "{particles} bodies may pass through others in a step: particle {id} of radius {} moves by {way:.3e} at the start, {what}",
+        "particle {id} of radius {} moves by {way:.3e} in the first step, {what}: {others} may pass through what should be touched",
         radius[row]
     );
-    let remark =
-        Remark::note("fast-collisions", text).with("particles", particles as f64).with("particle", f64::from(id));
+    let remark = Remark::note("fast-collisions", text).with("particles", particles as f64).with("particle", id);
     Some(remark.with("moved", way).advice(way_out))
 }
 

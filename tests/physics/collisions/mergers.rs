@@ -51,7 +51,7 @@ fn two_become_one() {
 fn two_words_keep_their_digits() {
     let shared = support::device();
     let at = |x: f64, v: f64, mass: f64| (DVec3::new(x, -700.0 - x / 7.0, 0.3), DVec3::new(v, v / 3.0, 0.0), mass, 0.1);
-    let start = bodies(&[at(1000.123_456_789, 512.0 + 1e-7, 1.0), at(1000.2, 512.0 - 3e-6, 3.0)]);
+    let start = bodies(&[at(1_000.123_456_789, 512.0 + 1e-7, 1.0), at(1000.2, 512.0 - 3e-6, 3.0)]);
     for precision in [Precision::Compensated, Precision::DoubleSingle] {
         let integrator = Box::new(Precise { integrator: integrator("leapfrog"), precision });
         let setup = Setup { integrator, ..Setup::new(start.clone(), vec![merging()], 1e-6) };
