@@ -5,8 +5,9 @@ use motes::scene::{Options, SCENES, Scene, Source};
 use motes::settings::Settings;
 use motes::*;
 
-/// Scenes of which a picture shows a part: stars and birds without an end, planets farther out, and grains that still fall.
+/// Scenes of which a picture shows a part: stars and birds without an end, planets farther out, bodies and grains that still fall.
 const PARTS: &[&str] = &[
+    "accretion",
     "avalanche",
     "brazil_nut",
     "cold_collapse",
