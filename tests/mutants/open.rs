@@ -6,7 +6,7 @@ const fn open(file: &'static str, most: usize) -> Open {
     Open { file, most }
 }
 
-/// Mutants whose loops have no end: a driver ends them after a minute or more, in which the other device waits too. Each is noticed, and is tried only
+/// Mutants with loops that have no end: a driver ends them after a minute or more, in which the other device waits too. Each is noticed, and is tried only
 /// where files are chosen.
 pub const ENDLESS: &[Equivalent] =
     &[same("visit/tree_look", "fn begun()", "/", "*", "a search that has not begun never ends")];
